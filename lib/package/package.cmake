@@ -35,9 +35,9 @@ endfunction()
 
 # Public headers by the library that a program needs to link for them.
 set(mcc_headers_reader allocator.h c_api.h decoded_limit.h error.h export.h job_runner.h reader.h simple.h
-                       simple_inline.h status.h tinygltf.h types.h)
+                       simple_inline.h status.h types.h)
 set(mcc_headers_writer run_jobs.h writer.h)
-set(mcc_headers_gltf files.h glb.h result.h)
+set(mcc_headers_gltf files.h glb.h result.h tinygltf.h)
 
 # mcc_install(ALIAS...): these libraries, their headers, CMake package, pkg-config files, and the
 # target `uninstall`.

@@ -3,16 +3,20 @@ import { registerGLTFExtension, unregisterGLTFExtension }
   from '@babylonjs/loaders/glTF/2.0/glTFLoaderExtensionRegistry.js';
 import { EXTENSION_NAME } from './document.mjs';
 import { PayloadViews } from './views.mjs';
+import { preload } from './threads.mjs';
+
+export { preload };
 
 /**
  * Makes Babylon.js load KHR_mesh_collapse_compression. A payload that is damaged, or does not fit
  * the document, rejects the load with a message that says why. May be called again with other
- * options.
+ * options. What decoding needs is loaded at once, while files are on their way.
  *
- * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default in workers that all
- * loaders of a page share
+ * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default where that is done
+ * soonest
  */
 export function registerMeshCollapse(options) {
+  if (options?.decode === undefined) preload();
   unregisterGLTFExtension(EXTENSION_NAME);
   registerGLTFExtension(EXTENSION_NAME, true, (loader) => new MeshCollapseExtension(loader, options));
 }

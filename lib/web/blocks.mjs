@@ -8,6 +8,7 @@ import { checkClaims } from './claims.mjs';
 import { decodePayload } from './decode.mjs';
 import { MccError, requireArgument } from './error.mjs';
 import { wholeModule } from './source.mjs';
+import { nextTask } from './tasks.mjs';
 
 export { claimsBlocks };
 
@@ -206,18 +207,6 @@ class Abort {
   end() {
     this.#signal?.removeEventListener('abort', this.#listener);
   }
-}
-
-/** Resolves in a task of its own, so that the page can do other things before. */
-export function nextTask() {
-  return new Promise((resolve) => {
-    const { port1, port2 } = new MessageChannel();
-    port1.onmessage = () => {
-      port1.close();
-      resolve();
-    };
-    port2.postMessage(null);
-  });
 }
 
 /**

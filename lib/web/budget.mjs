@@ -25,7 +25,8 @@ export function namedBytes({ claims }) {
 
 export const sum = (numbers) => numbers.reduce((total, number) => total + number, 0);
 
-const bytesOf = ({ pieces }) => sum(pieces.flatMap(({ attributes, parts }) => [
+/** The number of bytes that a payload has decoded to, with 32-bit indices. */
+export const bytesOf = ({ pieces }) => sum(pieces.flatMap(({ attributes, parts }) => [
   ...attributes.map(({ array }) => array.byteLength), ...parts.map(({ triangleCount }) => 12 * triangleCount)]));
 
 /** What may still be decoded. `fileBytes` may grow while more of the file becomes known. */

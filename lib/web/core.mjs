@@ -27,7 +27,6 @@ const OUT_OF_MEMORY = ERRORS.length;
 /** The error of the core alone, number 255, see format/decodes.h. */
 const NOT_IN_CORE = ['NotInCore', 'needs the whole decoder'];
 
-
 /** In the order of the component types in a payload's header. */
 const COMPONENT_TYPES = Object.keys(ARRAYS).map(Number);
 
@@ -49,10 +48,15 @@ export class Decoder {
     this.module = module;
   }
 
+  /** Makes the instance before it is needed. */
+  async prepare() {
+    while (this.#instance === null) await this.#instantiate();
+  }
+
   async decode(bytes, options) {
     ++this.#pending;
     try {
-      while (this.#instance === null) await this.#instantiate();
+      await this.prepare();
       return this.decodeSync(bytes, options);
     } finally {
       --this.#pending;

@@ -29,6 +29,9 @@ export const ready = /* @__PURE__ */ new Loading(() => {});
 /** Returns the decoder of a module, always the same one. */
 const decoderOf = (loaded) => (loaded.decoder ??= new Decoder(loaded.module));
 
+/** Loads the first decoder and makes its instance, for decodePayload(). */
+export const prepareHere = async () => decoderOf(await pageSource().first()).prepare();
+
 export async function decodePayload(bytes, options) {
   const from = pageSource();
   try {

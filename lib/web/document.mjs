@@ -86,7 +86,7 @@ export function elementsOf({ pieces }, { piece, attribute, part }, { componentTy
   if (attribute !== undefined) return pieces[piece].attributes[attribute].array;
   const { indices } = pieces[piece].parts[part];
   const IndexArray = ARRAYS[componentType];
-  return indices instanceof IndexArray ? indices : IndexArray.from(indices);
+  return indices instanceof IndexArray ? indices : new IndexArray(indices);
 }
 
 /** Returns a string that is equal for targets of one payload whose accessors get the same bytes. */

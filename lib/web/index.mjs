@@ -7,3 +7,4 @@ export { decodeGlbBlocks } from './glb_blocks.mjs';
 export { EXTENSION_NAME } from './document.mjs';
 export { unpackGlb } from './unpack.mjs';
 export { unpackTile } from './unpack_tile.mjs';
+export { preload } from './threads.mjs';

@@ -2,11 +2,16 @@
 //
 // Workers that decode.
 import { checkBytes, checkIndexType, claimsBlocks } from './arguments.mjs';
+import { bytesOf } from './budget.mjs';
 import { asMccError, MccError, requireArgument } from './error.mjs';
 import { importOfNode } from './node.mjs';
+import { expectedBytes, pace } from './pace.mjs';
 import { pageSource, Source } from './source.mjs';
+import { LONGEST_TASK_MS } from './tasks.mjs';
 
 const MOST_WORKERS = 1024;
+/** Payloads that a worker gets at once are expected to take so long together. */
+const BATCH_MS = LONGEST_TASK_MS;
 
 /**
  * Creates a pool that decodes several payloads at a time, in workers.
@@ -20,7 +25,7 @@ export function createPool(options, blocks) {
 }
 
 class DecoderPool {
-  #source;
+  #ownSource;
   #blocks;
   #workers;
   #waiting = [];
@@ -30,8 +35,8 @@ class DecoderPool {
     this.size = size;
     this.#blocks = blocks;
     // All workers share one copy of the modules; without options, it is that of decodePayload().
-    this.#source = Object.keys(where).length === 0 ? pageSource() : new Source(where);
-    this.#workers = Array.from({ length: size }, () => ({ job: null, worker: null, started: null, keys: new Set() }));
+    this.#ownSource = Object.keys(where).length === 0 ? undefined : new Source(where);
+    this.#workers = Array.from({ length: size }, () => ({ jobs: null, worker: null, started: null, keys: new Set() }));
     this.#runner.ahead = size + 1;
   }
 
@@ -49,10 +54,13 @@ class DecoderPool {
     // else; otherwise it is copied when a worker is free, so that no more copies are there than workers.
     const { buffer } = bytes;
     const whole = transfer && buffer instanceof ArrayBuffer && bytes.byteLength === buffer.byteLength;
-    return this.#run(undefined, () => {
+    const decodedBytes = expectedBytes(bytes);
+    const { decoded, ms } = await this.#run({ ms: pace.predict(decodedBytes) }, () => {
       const payload = whole ? bytes : new Uint8Array(bytes);
-      return { message: { bytes: payload, options: { limits, indexType, claims } }, moved: [payload.buffer] };
+      return { job: { bytes: payload, options: { limits, indexType, claims } }, moved: [payload.buffer] };
     });
+    pace.learn(bytesOf(decoded), ms);
+    return decoded;
   };
 
   /** Bound to the pool. */
@@ -63,19 +71,38 @@ class DecoderPool {
     ahead: 0,
     module: async () => (await this.#source.whole()).module,
     decodePayload: (bytes, options) => this.decodePayload(bytes, options),
-    run: (key, makeTask) => this.#run(key, (slot) => {
+    run: async (key, makeTask) => (await this.#run({ key }, (slot) => {
       const { task, moved } = makeTask(!slot.keys.has(key));
       slot.keys.add(key);
-      return { message: { task }, moved };
-    }),
+      return { job: { task }, moved };
+    })).block,
     close: (key) => this.#close(key),
   };
 
-  /** Resolves when a worker has answered what `make` makes for it. */
-  #run(key, make) {
+  get #source() {
+    return this.#ownSource ?? pageSource();
+  }
+
+  /** Starts a worker before it is needed. */
+  async prepare() {
+    const [slot] = this.#workers;
+    const started = (slot.started ??= this.#start(slot));
+    try {
+      await started;
+      if (slot.jobs === null) slot.worker?.unref?.();
+    } catch (error) {
+      if (slot.started === started) this.#lose(slot, error);
+    }
+  }
+
+  /**
+   * Resolves with what a worker answers to the job that `make` makes for it.
+   * @param {{ key?: number, ms?: number }} about  whose blocks, or how long a payload is expected to take
+   */
+  #run(about, make) {
     return new Promise((resolve, reject) => {
       if (this.#disposed) throw new MccError('the pool was disposed of', 'Disposed');
-      this.#waiting.push({ key, make, resolve, reject });
+      this.#waiting.push({ ...about, make, resolve, reject });
       this.#next();
     });
   }
@@ -91,76 +118,103 @@ class DecoderPool {
     const error = new MccError('the pool was disposed of', 'Disposed');
     for (const job of this.#waiting.splice(0)) job.reject(error);
     for (const slot of this.#workers) {
-      slot.job?.reject(error);
-      slot.job = null;
+      for (const job of slot.jobs ?? []) job.reject(error);
+      slot.jobs = null;
       slot.worker?.terminate();
     }
   }
 
   #next() {
     if (this.#waiting.length === 0) return;
-    const idle = this.#workers.filter(({ job }) => job === null);
-    const slot = idle.find(({ keys }) => keys.has(this.#waiting[0].key)) ?? idle[0];
+    const idle = this.#workers.filter(({ jobs }) => jobs === null);
+    const slot = idle.find(({ keys }) => keys.has(this.#waiting[0].key)) ?? idle.find(({ isUp }) => isUp) ?? idle[0];
     if (slot === undefined) return;
-    slot.job = this.#waiting.shift();
-    slot.started ??= this.#start(slot);
-    slot.started.then(() => this.#post(slot), (error) => this.#lose(slot, error));
+    slot.jobs = this.#takeBatch();
+    const started = (slot.started ??= this.#start(slot));
+    const ifCurrent = (call) => (value) => { if (slot.started === started) call(value); };
+    started.then(ifCurrent(() => this.#post(slot)), ifCurrent((error) => this.#lose(slot, error)));
+  }
+
+  /** Returns the job whose turn it is, and if it is a small payload, those after it, which would take longer to send than to decode. */
+  #takeBatch() {
+    const list = this.#waiting;
+    let count = 1;
+    for (let ms = list[0].ms; ms + list[count]?.ms <= BATCH_MS; ++count) ms += list[count].ms;
+    return list.splice(0, count);
   }
 
   #post(slot) {
-    if (slot.job === null) return; // the pool was disposed of
+    const { jobs, worker } = slot;
+    if (jobs === null) return; // the pool was disposed of
     try {
-      const { message, moved } = slot.job.make(slot);
-      slot.worker.postMessage(message, moved);
-      slot.worker.ref?.(); // Node: only a running job keeps the program alive
+      const made = jobs.map(({ make }) => make(slot));
+      worker.postMessage({ jobs: made.map(({ job }) => job) }, made.flatMap(({ moved }) => moved));
+      worker.ref?.(); // Node: only running jobs keep the program alive
     } catch (error) {
-      this.#finish(slot, 'reject', asMccError(error, 'the payload cannot be sent to a worker', 'BadArgument'));
+      const alone = jobs.length > 1 ? jobs.map((job) => ({ ...job, ms: Infinity })) : []; // to find the one that is at fault
+      this.#waiting.unshift(...alone);
+      if (alone.length > 0) slot.jobs = [];
+      this.#reject(slot, asMccError(error, 'the payload cannot be sent to a worker', 'BadArgument'));
     }
   }
 
-  #finish(slot, how, value) {
-    const { job } = slot;
-    slot.job = null;
+  /** Makes a worker free, and calls `tell` with each of its jobs. */
+  #finish(slot, tell) {
+    const jobs = slot.jobs ?? [];
+    slot.jobs = null;
     slot.worker?.unref?.();
-    // Its payload may have been closed while it waited for the whole decoder.
-    if (job?.key !== undefined && !slot.keys.has(job.key)) slot.worker?.postMessage({ close: job.key });
-    job?.[how](value);
+    // Their payloads may have been closed while they waited for the whole decoder.
+    for (const { key } of jobs) if (key !== undefined && !slot.keys.has(key)) slot.worker?.postMessage({ close: key });
+    jobs.forEach(tell);
     this.#next();
+  }
+
+  #reject(slot, error) {
+    this.#finish(slot, ({ reject }) => reject(error));
   }
 
   /** Drops a worker that has failed, or that could not start. The next payload gets another one. */
   #lose(slot, error) {
     slot.worker?.terminate();
-    slot.worker = slot.started = null;
+    Object.assign(slot, { worker: null, started: null, isUp: false });
     slot.keys.clear();
-    this.#finish(slot, 'reject', asMccError(error, 'the worker failed', 'Load'));
+    this.#reject(slot, asMccError(error, 'the worker failed', 'Load'));
   }
 
+  /** Starts a worker while its module is loaded. */
   async #start(slot) {
-    const { module } = await this.#source.first();
-    const answer = ({ decoded, needsWhole, message, code }) => {
-      if (decoded !== undefined) this.#finish(slot, 'resolve', decoded);
+    const loading = this.#source.first();
+    loading.catch(() => {}); // the worker may fail first
+    const answer = ({ isUp, answers, needsWhole }) => {
+      if (isUp) slot.isUp = true;
       else if (needsWhole) this.#sendWhole(slot);
-      else this.#finish(slot, 'reject', new MccError(message, code));
+      else if (answers === undefined) this.#reject(slot, new MccError('the message to the worker cannot be read', 'BadArgument'));
+      else this.#finish(slot, (job, i) => settle(job, answers[i]));
     };
     // What comes from a worker that was dropped is not about the one in its place.
     const ifCurrent = (call) => (value) => { if (slot.worker === worker) call(value); };
     const worker = await createWorker(ifCurrent(answer), ifCurrent((error) => this.#lose(slot, error)));
     slot.worker = worker;
+    const { module } = await loading;
     if (this.#disposed) worker.terminate();
     else worker.postMessage({ module });
   }
 
-  /** The worker keeps the payload and waits. */
+  /** The worker keeps its jobs and waits. */
   async #sendWhole(slot) {
     const { worker } = slot;
     try {
       const { module } = await this.#source.whole();
       if (slot.worker === worker) worker.postMessage({ module });
     } catch (error) {
-      if (slot.worker === worker) this.#finish(slot, 'reject', asMccError(error, 'the decoder cannot be sent to a worker', 'Load'));
+      if (slot.worker === worker) this.#reject(slot, asMccError(error, 'the decoder cannot be sent to a worker', 'Load'));
     }
   }
+}
+
+function settle({ resolve, reject }, answer) {
+  if (answer.message === undefined) resolve(answer);
+  else reject(new MccError(answer.message, answer.code));
 }
 
 /** Creates a worker of the browser, or one of Node with the same interface. */

@@ -2,6 +2,7 @@
 //
 // Decodes models on their way from the network to a page, so that engines without a plugin show them.
 import { sum } from './budget.mjs';
+import { prepareHere } from './decode.mjs';
 import { EXTENSION_NAME, listOf } from './document.mjs';
 import { fail } from './error.mjs';
 import { unpackGlb } from './unpack.mjs';
@@ -31,6 +32,7 @@ const isModel = ({ pathname }) => /\.(glb|gltf|b3dm|i3dm|cmpt)$/i.test(pathname)
 export function decodeFetches(options) {
   const { match = isModel, ...others } = options ?? {};
   const models = new Models(others);
+  if (others.decode === undefined) prepareHere().catch(() => {}); // while the first model is on its way
   self.addEventListener('install', () => self.skipWaiting());
   self.addEventListener('activate', (event) => event.waitUntil(self.clients.claim()));
   self.addEventListener('fetch', (event) => {

@@ -24,7 +24,8 @@ export class Source {
   core() {
     const { module, bytes, coreUrl, simdCoreUrl, wasmUrl, simdWasmUrl } = this.where;
     const isWhole = (module ?? bytes ?? wasmUrl ?? simdWasmUrl) !== undefined;
-    return (coreUrl ?? simdCoreUrl) === undefined && isWhole ? this.whole() : this.#load('coreDecoder', urlOfCore);
+    if ((coreUrl ?? simdCoreUrl) !== undefined) return this.#load('coreDecoder', urlOfCore);
+    return isWhole ? this.whole() : this.#load('coreDecoder', urlOfCore, { bytes: hasSimd() ? inlineCore?.() : undefined });
   }
 
   whole() {
@@ -36,13 +37,21 @@ export class Source {
     return this.decoder && !this.coreDecoder ? this.whole() : this.core();
   }
 
-  #load(name, urlOf) {
-    this.#loading[name] ??= compileModule(this.where, urlOf(this.where)).then((module) => (this[name] = { module }), (error) => {
+  #load(name, urlOf, given = this.where) {
+    this.#loading[name] ??= compileModule(given, urlOf(this.where)).then((module) => (this[name] = { module }), (error) => {
       delete this.#loading[name]; // the next call tries again
       throw error;
     });
     return this.#loading[name];
   }
+}
+
+/** Returns the bytes of the core with SIMD, if a script has them. */
+let inlineCore;
+
+/** Makes sources take the core from a function, where no other place is given. */
+export function useInlineCore(unpack) {
+  inlineCore = unpack;
 }
 
 /** The modules of this page, which decodePayload() and pools without options share. */

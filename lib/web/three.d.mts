@@ -20,9 +20,19 @@ export interface PluginOptions extends UnpackOptions {
   onBlock?: (geometry: any, info: BlockOfPrimitive) => void;
 }
 
-/** For GLTFLoader.register((parser) => new MeshCollapsePlugin(parser)). `parser` is a GLTFParser. */
+export { preload } from './threads.mjs';
+
+/**
+ * Makes a GLTFLoader load the extension, and returns it. Loads the decoder and starts a worker at once, unless `decode` is given. By default,
+ * small payloads are decoded on the page's thread and others in workers, which all loaders of a page share.
+ */
+export function registerMeshCollapse<Loader extends object>(loader: Loader, options?: PluginOptions): Loader;
+
+/**
+ * For GLTFLoader.register((parser) => new MeshCollapsePlugin(parser)). `parser` is a GLTFParser. Nothing is loaded before the first file is
+ * there; call preload(), or registerMeshCollapse() instead.
+ */
 export class MeshCollapsePlugin {
-  /** By default, `decode` uses workers that all loaders of a page share. */
   constructor(parser: object, options?: PluginOptions);
   readonly name: 'KHR_mesh_collapse_compression';
   beforeRoot(): Promise<void>;

@@ -2,15 +2,28 @@
 import { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 } from 'three';
 import { EXTENSION_NAME } from './document.mjs';
 import { PayloadViews } from './views.mjs';
-import { rarelyNeeded } from './workers.mjs';
+import { preload, rarelyNeeded } from './threads.mjs';
+
+export { preload };
 
 /** All of these GLTFLoader needs anyway. import('three') would make bundlers keep the rest of three.js as well. */
 const THREE = { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 };
 
 /**
- * Loads KHR_mesh_collapse_compression with GLTFLoader of three.js:
+ * Makes a GLTFLoader of three.js load KHR_mesh_collapse_compression. What decoding needs is loaded at once, while files are on their way.
  *
- *     loader.register((parser) => new MeshCollapsePlugin(parser));
+ * @param {import('three/addons/loaders/GLTFLoader.js').GLTFLoader} loader
+ * @param {import('./three.mjs').PluginOptions} [options]
+ * @returns the loader
+ */
+export function registerMeshCollapse(loader, options) {
+  if (options?.decode === undefined) preload();
+  return loader.register((parser) => new MeshCollapsePlugin(parser, options));
+}
+
+/**
+ * The plugin, for loader.register((parser) => new MeshCollapsePlugin(parser)). GLTFLoader makes it when the file is there, and nothing is loaded
+ * before.
  *
  * A payload that is damaged, or does not fit the document, rejects the load with a message that
  * says why.
@@ -24,8 +37,8 @@ export class MeshCollapsePlugin {
 
   /**
    * @param {import('three/addons/loaders/GLTFLoader.js').GLTFParser} parser
-   * @param {import('./three.mjs').PluginOptions} [options] decode: by default in workers that all
-   * loaders of a page share
+   * @param {import('./three.mjs').PluginOptions} [options] decode: by default where that
+   * is done soonest
    */
   constructor(parser, { onBlock, ...options } = {}) {
     this.#parser = parser;

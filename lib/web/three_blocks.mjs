@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Geometries of three.js for single blocks. It is part of page_thread.mjs, and gets what it needs of three.js from the plugin: a bundler
+// Geometries of three.js for single blocks. It is part of gluing.mjs, and gets what it needs of three.js from the plugin: a bundler
 // would cut three.js in two if a chunk that is loaded later imported it.
 import { usesOf } from './uses.mjs';
 

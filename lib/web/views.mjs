@@ -6,7 +6,7 @@
 import { asTrap } from './arguments.mjs';
 import { Budget, fetchAndDecode, MOST_AT_A_TIME } from './budget.mjs';
 import { elementsOf, listOf, originOf, payloadsOf } from './document.mjs';
-import { decodeInWorkers } from './workers.mjs';
+import { decodeAnywhere, preload } from './threads.mjs';
 
 export class PayloadViews {
   #sources = new Map(); // by the number of an added buffer view
@@ -14,12 +14,13 @@ export class PayloadViews {
   /**
    * @param {object} json a glTF document; it is not changed
    * @param {(bufferView: number) => Promise<Uint8Array>} fetchPayload the bytes of a buffer view of the file
-   * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default in workers that all loaders of a page share
+   * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default where that is done soonest, see threads.mjs
    * @param {(block: object, payload: object) => void} [onBlock] is called with each block of a payload of payloadsOf()
    */
   constructor(json, fetchPayload, options, onBlock) {
-    const { decode = decodeInWorkers, limits } = options ?? {};
+    const { decode = decodeAnywhere, limits } = options ?? {};
     const payloads = payloadsOf(json);
+    if (decode === decodeAnywhere && payloads.length > 0) preload(); // before the payloads are there, if nobody did it earlier
     /**
      * The lists to use in place of the document's. Existing numbers stay; added buffer views come
      * last.

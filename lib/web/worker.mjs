@@ -1,23 +1,30 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// A worker of a decoder pool. It is sent the compiled module, then one payload or one block at a
-// time; buffers are transferred both ways. It keeps what it needs for other blocks of a payload until
-// it is told to close it. If a payload or a block needs more than the core of the decoder, the worker keeps
-// it until it is sent the whole decoder, which from then on decodes everything that the core
+// A worker of a decoder pool. It is sent the compiled module, then lists of jobs, which are payloads or one
+// block; buffers are transferred both ways. It keeps what it needs for other blocks of a payload until
+// it is told to close it. If a job needs more than the core of the decoder, the worker keeps
+// the list until it is sent the whole decoder, which from then on decodes everything that the core
 // cannot.
 import { asTrap } from './arguments.mjs';
 import { buffersOfBlock, runTask } from './block_decoder.mjs';
 import { buffersOf, Decoder } from './core.mjs';
 import { importOfNode } from './node.mjs';
+import { nextTask } from './tasks.mjs';
+import { warmUpPayload } from './warm_up.mjs';
+
+/** After so many, engines have compiled well what is called often. */
+const WARM_UPS = 60;
 
 const decoders = [];
 const blockDecoders = new Map();
 let waiting = null;
 /** Messages are answered one after the other. */
 let answered = Promise.resolve();
+let unansweredCount = 0;
 
 function take(message, post) {
-  answered = answered.then(() => answer(message, post));
+  ++unansweredCount;
+  answered = answered.then(() => answer(message, post)).finally(() => --unansweredCount);
 }
 
 async function answer(request, post) {
@@ -27,32 +34,52 @@ async function answer(request, post) {
   }
   if (request.module !== undefined) {
     decoders.push(new Decoder(request.module));
-    if (waiting === null) return;
-    request = waiting;
-  }
-  const { bytes, options, task } = request;
-  waiting = null;
-  try {
-    if (task !== undefined) {
-      const block = await runTask(blockDecoders, decoders.at(-1).module, task);
-      post({ decoded: block }, buffersOfBlock(block));
+    if (waiting === null) {
+      post({ isUp: true }, []);
+      await warmUp(decoders[0]).catch(() => {}); // what goes wrong here goes wrong again when a payload is decoded
       return;
     }
+    request = waiting;
+  }
+  const { jobs, answers = [] } = request;
+  waiting = null;
+  for (const [i, job] of jobs.entries()) answers[i] ??= await answerTo(job);
+  if (!answers.includes(undefined)) {
+    post({ answers }, answers.flatMap(({ decoded, block }) => (block ? buffersOfBlock(block) : decoded ? buffersOf(decoded) : [])));
+    return;
+  }
+  waiting = { jobs, answers };
+  post({ needsWhole: true }, []);
+}
+
+/** Decodes until there is something to do. */
+async function warmUp(decoder) {
+  await decoder.prepare();
+  const payload = warmUpPayload();
+  for (let i = 0; i < WARM_UPS && unansweredCount === 1; ++i) {
+    await decoder.decode(payload);
+    await nextTask();
+  }
+}
+
+/** Returns undefined if it takes a decoder that is not there yet. */
+async function answerTo({ bytes, options, task }) {
+  try {
+    if (task !== undefined) return { block: await runTask(blockDecoders, decoders.at(-1).module, task) };
+    const begin = performance.now();
     const decoded = await decoders[0].decode(bytes, options).catch((error) => {
       if (error.code !== 'NotInCore' || decoders.length === 1) throw error;
       return decoders[1].decode(bytes, options);
     });
-    post({ decoded }, buffersOf(decoded));
+    return { decoded, ms: performance.now() - begin };
   } catch (error) {
     const { message, code } = asTrap(error);
-    const needsWhole = code === 'NotInCore' && decoders.length === 1;
-    if (needsWhole) waiting = request;
-    post({ needsWhole, message, code }, []);
+    return code === 'NotInCore' && decoders.length === 1 ? undefined : { message, code };
   }
 }
 
 /** Of a message that does not arrive whole. */
-const UNREADABLE = { message: 'the message to the worker cannot be read', code: 'BadArgument' };
+const UNREADABLE = { isUnreadable: true };
 
 if (typeof self === 'object' && typeof self.postMessage === 'function') {
   self.onmessage = ({ data }) => take(data, (message, moved) => self.postMessage(message, moved));

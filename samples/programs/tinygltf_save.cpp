@@ -30,7 +30,7 @@ int main(int argument_count, char** arguments) {
   // The one line. Its options are those of gltf-mcc convert.
   const mcc::tinygltf::Result result = mcc::tinygltf::encode(model);
   if (!result.ok()) {
-    std::fprintf(stderr, "%s\n", result.what.c_str());
+    std::fprintf(stderr, "%s\n", result.message().c_str());
     return 1;
   }
 

@@ -574,7 +574,7 @@ static void test_options_of_documents(const uint8_t* glb, size_t glb_bytes) {
   for (i = 0; i < COUNT_OF(kWild); ++i) {
     if (kWild[i] <= 1) continue;
     mcc_decode_glb_options_init(&decode, sizeof decode);
-    decode.decode_to_integers = kWild[i];
+    decode.decode_to = kWild[i];
     EXPECT_OF(mcc_decode_glb(glb, glb_bytes, &decode, &document).error == bad, "to integers",
               kWild[i]);
     EXPECT(document == NULL);

@@ -12,8 +12,8 @@
 #include <set>
 
 #include "cli/run_tool.h"
-#include "gltf/gltf_builder.h"
 #include "json/json.h"
+#include "support/gltf_builder.h"
 #include "support/made_files.h"
 
 namespace mcc::test {
@@ -211,8 +211,8 @@ TEST_F(Batch, WhatIsUpToDateIsLeft) {
   EXPECT_EQ(counted(""), 0u);
   EXPECT_EQ(counted("--force"), names_.size());
   EXPECT_EQ(counted("-j 2"), 0u);
-  EXPECT_EQ(counted("--quantize-position 9"), names_.size());
-  EXPECT_EQ(counted("--quantize-position 9"), 0u);
+  EXPECT_EQ(counted("--position-bits 9"), names_.size());
+  EXPECT_EQ(counted("--position-bits 9"), 0u);
   EXPECT_EQ(counted(""), names_.size());
   EXPECT_TRUE(filesOf("out") == before);
 

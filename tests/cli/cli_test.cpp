@@ -117,9 +117,9 @@ TEST_F(Cli, InspectSaysWhyALargeSurfaceHasNoBlocks) {
   };
   const std::string without = "540,800 triangles without blocks: ";
   EXPECT_EQ(inspected("").find(without), std::string::npos);
-  EXPECT_NE(inspected("--block 0").find(without + "its writer was not asked"), std::string::npos);
-  EXPECT_NE(inspected("--keep-order vertices").find(without + "an order is kept"),
+  EXPECT_NE(inspected("--block-triangles 0").find(without + "its writer was not asked"),
             std::string::npos);
+  EXPECT_NE(inspected("--keep-vertex-order").find(without + "an order is kept"), std::string::npos);
 }
 
 TEST_F(Cli, DecodeToIntegers) {
@@ -158,7 +158,7 @@ TEST_F(Cli, SkinsOfEightInfluences) {
   builder.addMesh({primitive});
   const std::vector<uint8_t> file = builder.toGlb();
   store(folder_ / "skin.glb", std::string(file.begin(), file.end()));
-  ASSERT_EQ(run("convert skin.glb small.glb --keep-order vertices --compare none").status, 0);
+  ASSERT_EQ(run("convert skin.glb small.glb --keep-vertex-order --compare none").status, 0);
   ASSERT_EQ(run("decode small.glb back.glb").status, 0);
   const std::string text = contentOf(folder_ / "back.glb");
   const std::vector<uint8_t> back(text.begin(), text.end());
@@ -209,7 +209,7 @@ TEST_F(Cli, OptionsAndFormats) {
   ASSERT_TRUE(parseJson(asBytes(contentOf(folder_ / "r.json")), stored).ok());
   EXPECT_EQ(printed["payloads"][0]["triangles"], 800);
   EXPECT_EQ(stored["payloads"][0]["vertices"], 441);
-  EXPECT_EQ(stored["options"]["quantize_position"], 14);
+  EXPECT_EQ(stored["options"]["position_bits"], 14);
   EXPECT_EQ(run("inspect out.glb --format json").status, 0);
   EXPECT_EQ(run("inspect out.glb --format csv --codes").status, 0);
   EXPECT_EQ(run("inspect out.glb --format md").status, 0);
@@ -229,10 +229,9 @@ TEST_F(Cli, QuantizationIsApplied) {
   };
   using Bits = std::map<std::string, int>;
   EXPECT_EQ(bits(""), (Bits{{"POSITION", 14}, {"NORMAL", 10}, {"TEXCOORD_0", 12}}));
-  EXPECT_EQ(bits("--quantize-position 11 --quantize-normal 8 --quantize-texcoord 10 --grid scene"),
+  EXPECT_EQ(bits("--position-bits 11 --normal-bits 8 --texcoord-bits 10 --grid scene"),
             (Bits{{"POSITION", 11}, {"NORMAL", 8}, {"TEXCOORD_0", 10}}));
-  EXPECT_EQ(bits("--quantize-position 0"),
-            (Bits{{"POSITION", 0}, {"NORMAL", 10}, {"TEXCOORD_0", 12}}));
+  EXPECT_EQ(bits("--position-bits 0"), (Bits{{"POSITION", 0}, {"NORMAL", 10}, {"TEXCOORD_0", 12}}));
   EXPECT_EQ(bits("--lossless"), (Bits{{"POSITION", 0}, {"NORMAL", 0}, {"TEXCOORD_0", 0}}));
 }
 
@@ -254,12 +253,11 @@ TEST_F(Cli, PreferenceIsApplied) {
 TEST_F(Cli, WrongUsageIsStatusTwo) {
   for (const char* arguments :
        {"", "frobnicate", "convert", "convert in.glb", "convert in.glb out.glb more.glb",
-        "convert in.glb out.glb --frobnicate", "convert in.glb out.glb --quantize-position 25",
-        "convert in.glb out.glb --quantize-position x",
-        "convert in.glb out.glb --quantize-normal 1", "convert in.glb out.glb --grid world",
-        "convert in.glb out.glb --prefer beauty", "convert in.glb out.glb --format xml",
-        "convert in.glb out.glb -j 0", "convert in.glb out.glb --indices-only --drop-unused",
-        "decode in.glb", "inspect"}) {
+        "convert in.glb out.glb --frobnicate", "convert in.glb out.glb --position-bits 25",
+        "convert in.glb out.glb --position-bits x", "convert in.glb out.glb --normal-bits 1",
+        "convert in.glb out.glb --grid world", "convert in.glb out.glb --prefer beauty",
+        "convert in.glb out.glb --format xml", "convert in.glb out.glb -j 0",
+        "convert in.glb out.glb --indices-only --drop-unused", "decode in.glb", "inspect"}) {
     const Outcome result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments << "\n" << result.err;
     EXPECT_EQ(result.err.rfind("gltf-mcc: ", 0), 0u) << result.err;
@@ -281,19 +279,21 @@ TEST_F(Cli, WrongUsageSaysWhatIsWrong) {
   expectSays("inspect", "inspect: IN is missing");
   expectSays("validate", "validate: FILE is missing");
   expectSays("tree in.glb", "tree: OUT is missing");
-  expectSays("convert in.glb out.glb --max-error", "--max-error: X is missing");
+  expectSays("convert in.glb out.glb --max-position-error", "--max-position-error: X is missing");
   expectSays("convert in.glb -o", "--output: FILE|DIR is missing");
   expectSays("convert in.glb out.glb --grid", "--grid: mesh|scene|primitive is missing");
-  expectSays("convert --lattice 0,0,1 in.glb out.glb",
-             "--lattice: takes 4 numbers with commas between them, X,Y,Z,STEP, not 0,0,1");
+  expectSays("convert --position-lattice 0,0,1 in.glb out.glb",
+             "--position-lattice: takes 4 numbers with commas between them, X,Y,Z,STEP, not 0,0,1");
   expectSays("decode in.glb", "decode: OUT is missing");
   expectSays("decode a.glb b.glb c.glb", "decode: several inputs need a folder: -o DIR");
-  expectSays("convert in.glb out.glb --max-error -1", "--max-error: -1 is not greater than 0");
-  expectSays("convert in.glb out.glb --max-error-relative x", "--max-error-relative: x is not");
+  expectSays("convert in.glb out.glb --max-position-error -1",
+             "--max-position-error: -1 is not greater than 0");
+  expectSays("convert in.glb out.glb --is-error-relative",
+             "--is-error-relative requires --max-position-error");
   for (const char* lattice :
        {"0,0,0,0", "0,0,0,-1", "0,0,0,nan", "0,0,0,inf", "0,nan,0,1", "inf,0,0,1", "0,0,-inf,1"}) {
-    expectSays(std::string("convert in.glb out.glb --lattice ") + lattice,
-               "--lattice: needs finite numbers, and a step that is greater than 0");
+    expectSays(std::string("convert in.glb out.glb --position-lattice ") + lattice,
+               "--position-lattice: needs finite numbers, and a step that is greater than 0");
   }
   fs::create_directory(folder_ / "folder");
   expectSays("convert folder",
@@ -319,8 +319,8 @@ TEST_F(Cli, WrongUsageSaysWhatIsWrong) {
 
 /// Options with lists may come before the names of files.
 TEST_F(Cli, ListsTakeOneWord) {
-  ASSERT_EQ(run("convert --lattice 0,0,0,0.001 in.glb before.glb").status, 0);
-  ASSERT_EQ(run("convert in.glb behind.glb --lattice 0,0,0,0.001").status, 0);
+  ASSERT_EQ(run("convert --position-lattice 0,0,0,0.001 in.glb before.glb").status, 0);
+  ASSERT_EQ(run("convert in.glb behind.glb --position-lattice 0,0,0,0.001").status, 0);
   EXPECT_EQ(contentOf(folder_ / "before.glb"), contentOf(folder_ / "behind.glb"));
   ASSERT_EQ(run("tree --view 1,0,0 in.glb before.svg").status, 0);
   ASSERT_EQ(run("tree in.glb behind.svg --view 1,0,0").status, 0);

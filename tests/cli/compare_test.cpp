@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cli/run_tool.h"
-#include "gltf/gltf_builder.h"
 #include "json/json.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::test {
 namespace {
@@ -63,7 +63,7 @@ TEST(Compare, ErrorsAreWithinTheLattice) {
   MCC_REQUIRE_COMPARISON();
   const ScratchFolder folder;
   const ToolResult result = runTool(
-      folder, "compare --format json --runs 1 --quantize-position 10 " + samplePath("torus.glb"));
+      folder, "compare --format json --runs 1 --position-bits 10 " + samplePath("torus.glb"));
   ASSERT_EQ(result.status, 0) << result.err;
   const Json figures = Json::parse(result.out)["files"][0];
   expectConsistent(figures);

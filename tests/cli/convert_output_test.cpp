@@ -114,7 +114,7 @@ TEST_F(ConvertOutput, IndicesAloneAreNotComparedWithWholeMeshes) {
 TEST_F(ConvertOutput, LosslessExcludesBits) {
   for (const char* name : {"position", "normal", "texcoord", "color", "tangent", "weight"}) {
     const Outcome result =
-        run("convert --lossless --quantize-" + std::string(name) + " 8 in.glb out.glb");
+        run("convert --lossless --" + std::string(name) + "-bits 8 in.glb out.glb");
     EXPECT_EQ(result.status, 2) << name;
     EXPECT_NE(result.err.find("--lossless"), std::string::npos) << result.err;
   }

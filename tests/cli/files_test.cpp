@@ -12,8 +12,8 @@
 #include <map>
 
 #include "cli/run_tool.h"
-#include "gltf/gltf_builder.h"
 #include "json/json.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::test {
 namespace {
@@ -429,7 +429,7 @@ TEST_F(Files, NothingThatATerminalObeysIsPrinted) {
   const std::string out = "'out" + evil + ".glb' ";
   for (const std::string& command :
        std::vector<std::string>{"convert " + quoted + out + "-v",
-                                "convert " + quoted + out + "--max-error 0.1",
+                                "convert " + quoted + out + "--max-position-error 0.1",
                                 "convert " + quoted + out + "--format json",
                                 "convert " + quoted + out + "--format csv",
                                 "convert " + quoted + out + "--format md -v",

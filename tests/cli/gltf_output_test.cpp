@@ -12,7 +12,7 @@
 #include "gltf/document/accessors.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
-#include "gltf/gltf_builder.h"
+#include "support/gltf_builder.h"
 #include "support/made_files.h"
 
 namespace mcc::gltf::test {
@@ -243,16 +243,7 @@ TEST_F(GltfOutput, DataUrisAndSeveralBuffersAreRead) {
     view["byteOffset"] = view["byteOffset"].get<uint64_t>() - split;
     view["buffer"] = 1;
   }
-  std::string base64;
-  static constexpr char kDigits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  ASSERT_EQ(split % 3, 0u);  // no padding below
-  for (size_t i = 0; i < split; i += 3) {
-    const uint32_t bits = uint32_t{static_cast<uint8_t>(bin_[i])} << 16 |
-                          uint32_t{static_cast<uint8_t>(bin_[i + 1])} << 8 |
-                          uint32_t{static_cast<uint8_t>(bin_[i + 2])};
-    for (int shift = 18; shift >= 0; shift -= 6) base64 += kDigits[bits >> shift & 63];
-  }
+  const std::string base64 = base64Of({reinterpret_cast<const uint8_t*>(bin_.data()), split});
   json["buffers"] = {
       {{"byteLength", split}, {"uri", "data:application/octet-stream;base64," + base64}},
       {{"byteLength", bin_.size() - split}, {"uri", "m%2dx/second.bin"}}};

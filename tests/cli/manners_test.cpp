@@ -180,9 +180,9 @@ TEST_F(Manners, WrongWordsGetSuggestions) {
   }
   expectUsageError("convert torus.glb s.glb --lossles",
                    "convert: there is no option --lossles; did you mean --lossless?");
-  expectUsageError("convert torus.glb s.glb --quantise-position=12",
-                   "convert: there is no option --quantise-position; did you mean "
-                   "--quantize-position?");
+  expectUsageError("convert torus.glb s.glb --positon-bits=12",
+                   "convert: there is no option --positon-bits; did you mean "
+                   "--position-bits?");
   expectUsageError("convert torus.glb s.glb --frobnicate",
                    "convert: there is no option --frobnicate");
   expectUsageError("convert torus.glb s.glb -z", "convert: there is no option -z");
@@ -353,7 +353,7 @@ TEST_F(Manners, BashCompletesEverythingThatHelpLists) {
             (Words{"mesh", "scene", "primitive"}));
   EXPECT_EQ(offered({"convert", "--grid", "=", "s"}), Words{"scene"});
   EXPECT_EQ(offered({"convert", "--grid", "="}), (Words{"mesh", "scene", "primitive"}));
-  EXPECT_EQ(offered({"convert", "--quantize-position", ""}), Words{});
+  EXPECT_EQ(offered({"convert", "--position-bits", ""}), Words{});
   EXPECT_EQ(offered({"completion", ""}), (Words{"bash", "zsh"}));
   EXPECT_EQ(offered({"help", "insp"}), Words{"inspect"});
   fs::create_directory(folder_.path() / "my models");

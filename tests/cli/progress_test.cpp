@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "cli/run_tool.h"
-#include "gltf/gltf_builder.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::test {
 namespace {

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "documents/compare.h"
+#include "documents/random_document.h"
 #include "foreign/decoders.h"
 #include "gltf/files/file_io.h"
 #include "mcc/files.h"
@@ -132,7 +132,7 @@ class Way {
 
   Result decodeFrom(const fs::path& path, const Bytes& bytes, const RandomDocument& document,
                     const fs::path& folder, DecodeTo to, Files& files) {
-    FileDecodeOptions options;
+    DecodeOptions options;
     options.decode_to = to;
     files.clear();
     fs::remove_all(folder);
@@ -172,7 +172,7 @@ void expectEqualDocuments(const RandomDocument& document, const Way& way, const 
   ASSERT_EQ(source.load(document.files, document.main), "") << "the source";
   ASSERT_EQ(converted.load(way.converted, way.converted_name), "") << "the converted file";
   ASSERT_EQ(back.load(decoded, way.converted_name), "") << "the decoded file";
-  ASSERT_EQ(differenceOf(source, converted, back, document, way.report), "")
+  ASSERT_EQ(differenceOf(source, converted, back, document.options, document.kept, way.report), "")
       << describe(document.options);
 }
 

@@ -11,6 +11,7 @@
 #include "foreign/meshopt_codec.h"
 #include "gltf/document/glb.h"
 #include "json/json.h"
+#include "support/gltf_builder.h"
 #include "support/mesh_generators.h"
 
 namespace mcc::gltf::test {
@@ -19,20 +20,8 @@ namespace {
 using mcc::test::Random;
 using mcc::test::TestMesh;
 
-constexpr int kByte = 5120;
-constexpr int kUnsignedByte = 5121;
-constexpr int kShort = 5122;
-constexpr int kUnsignedShort = 5123;
-constexpr int kUnsignedInt = 5125;
-constexpr int kFloat = 5126;
-
 constexpr char kMeshopt[] = "EXT_meshopt_compression";
 constexpr char kDraco[] = "KHR_draco_mesh_compression";
-
-uint32_t widthOf(int component_type) {
-  if (component_type <= kUnsignedByte) return 1;
-  return component_type <= kUnsignedShort ? 2 : 4;
-}
 
 /// Elements of an accessor before they are placed.
 struct Column {
@@ -43,8 +32,8 @@ struct Column {
   Bytes tight;
   bool is_for_vertices = true;
 
-  uint32_t columns() const { return type[0] == 'M' ? rows() : 1; }
-  uint32_t rows() const { return type == "SCALAR" ? 1 : static_cast<uint32_t>(type.back() - '0'); }
+  uint32_t columns() const { return shapeOf(type).columns; }
+  uint32_t rows() const { return shapeOf(type).rows; }
   uint32_t components() const { return columns() * rows(); }
   uint32_t tightBytes() const { return components() * widthOf(component_type); }
   uint32_t columnBytes() const {
@@ -63,60 +52,26 @@ struct Column {
     return bytes;
   }
   void add(double value) {
-    const auto put = [&](auto typed) {
+    withType(component_type, [&](auto typed) {
+      typed = static_cast<decltype(typed)>(value);
       const auto* bytes = reinterpret_cast<const uint8_t*>(&typed);
       tight.insert(tight.end(), bytes, bytes + sizeof typed);
-    };
-    switch (component_type) {
-      case kByte: put(static_cast<int8_t>(value)); break;
-      case kUnsignedByte: put(static_cast<uint8_t>(value)); break;
-      case kShort: put(static_cast<int16_t>(value)); break;
-      case kUnsignedShort: put(static_cast<uint16_t>(value)); break;
-      case kUnsignedInt: put(static_cast<uint32_t>(value)); break;
-      default: put(static_cast<float>(value)); break;
-    }
+    });
   }
-  double get(size_t number) const {
-    const uint8_t* place = tight.data() + number * widthOf(component_type);
-    const auto as = [&](auto typed) {
-      std::memcpy(&typed, place, sizeof typed);
-      return static_cast<double>(typed);
-    };
-    switch (component_type) {
-      case kByte: return as(int8_t{});
-      case kUnsignedByte: return as(uint8_t{});
-      case kShort: return as(int16_t{});
-      case kUnsignedShort: return as(uint16_t{});
-      case kUnsignedInt: return as(uint32_t{});
-      default: return as(float{});
-    }
-  }
+  double get(size_t number) const { return componentAt(component_type, tight.data(), number); }
 };
 
-std::string vectorType(uint32_t components) {
-  return components == 1 ? "SCALAR" : "VEC" + std::to_string(components);
+/// The largest number of an integer type; 1 for floats.
+double largestOf(int component_type) {
+  static constexpr double kLargest[] = {127, 255, 32767, 65535, 1, 4294967295.0, 1};
+  return kLargest[component_type - kByte];
 }
 
 double clampTo(int component_type, double value) {
-  switch (component_type) {
-    case kByte: return std::clamp(value, -128.0, 127.0);
-    case kUnsignedByte: return std::clamp(value, 0.0, 255.0);
-    case kShort: return std::clamp(value, -32768.0, 32767.0);
-    case kUnsignedShort: return std::clamp(value, 0.0, 65535.0);
-    case kUnsignedInt: return std::clamp(value, 0.0, 4294967295.0);
-    default: return value;
-  }
-}
-
-double largestOf(int component_type) {
-  switch (component_type) {
-    case kByte: return 127;
-    case kUnsignedByte: return 255;
-    case kShort: return 32767;
-    case kUnsignedShort: return 65535;
-    case kUnsignedInt: return 4294967295.0;
-    default: return 1;
-  }
+  if (component_type == kFloat) return value;
+  const double largest = largestOf(component_type);
+  const bool is_signed = component_type == kByte || component_type == kShort;
+  return std::clamp(value, is_signed ? -largest - 1 : 0.0, largest);
 }
 
 const std::vector<TestMesh>& zoo() {
@@ -185,7 +140,7 @@ class Printer {
     switch (random_.below(5)) {
       case 0: out_ += plain == "0" ? (random_.chance(50) ? "-0" : "-0.0") : plain + "e0"; break;
       case 1: out_ += is_whole ? plain + ".0" : plain + "000"; break;
-      case 2: out_ += is_whole && plain != "0" ? plain + "0E-1" : plain; break;
+      case 2: out_ += is_whole && plain != "0" && plain != "-0" ? plain + "0E-1" : plain; break;
       case 3: out_ += is_whole ? plain + ".000e+00" : plain + "E0"; break;
       default: out_ += plain; break;
     }
@@ -230,19 +185,6 @@ class Printer {
   bool is_odd_;
   std::string out_;
 };
-
-std::string toBase64(const Bytes& bytes) {
-  static const char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t bits = 0;
-    for (size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
-    for (size_t k = 0; k < 4; ++k) {
-      text += i + k > bytes.size() ? '=' : kDigits[bits >> (18 - 6 * k) & 63];
-    }
-  }
-  return text;
-}
 
 // ---- The document ------------------------------------------------------------------------------
 
@@ -1049,7 +991,7 @@ class Maker {
       for (uint32_t n = below(200); n > 0; --n) bytes.push_back(static_cast<uint8_t>(below(256)));
       switch (below(3)) {
         case 0:
-          json_["images"].push_back({{"uri", "data:image/png;base64," + toBase64(bytes)}});
+          json_["images"].push_back({{"uri", "data:image/png;base64," + base64Of(bytes)}});
           break;
         case 1:
           if (chance(50)) {
@@ -1181,13 +1123,13 @@ class Maker {
     if (chance(10) && sizeOf("bufferViews") != 0) {
       const uint32_t view = below(static_cast<uint32_t>(sizeOf("bufferViews")));
       json_["extensions"]["ACME_refers"]["bufferView"] = view;
-      document_.kept_views.push_back(view);
+      document_.kept.views.push_back(view);
       used_.insert({"ACME_refers", false});
     }
     if (chance(10) && !columns_.empty()) {
       const uint32_t accessor = below(static_cast<uint32_t>(columns_.size()));
       json_["extensions"]["ACME_refers"]["someAccessor"] = accessor;
-      document_.kept_accessors.push_back(accessor);
+      document_.kept.accessors.push_back(accessor);
       used_.insert({"ACME_refers", false});
     }
   }
@@ -1267,7 +1209,7 @@ class Maker {
       if (!is_chunk && (is_glb || chance(50))) {
         buffer["uri"] = std::string(chance(50) ? "data:application/octet-stream;base64,"
                                                : "data:application/gltf-buffer;base64,") +
-                        toBase64(buffers_[i]);
+                        base64Of(buffers_[i]);
       } else if (!is_chunk) {
         const std::string name = "data \u00fc" + std::to_string(i) + ".bin";
         buffer["uri"] = "data%20%C3%BC" + std::to_string(i) + ".bin";
@@ -1314,13 +1256,13 @@ class Maker {
     options.lossless = chance(30);
     if (chance(30)) {
       static const uint8_t kBits[] = {0, 1, 2, 8, 12, 14, 16, 20, 24};
-      options.bits.position = kBits[below(9)];
-      options.bits.texcoord = kBits[below(9)];
-      options.bits.color = kBits[below(9)];
-      options.bits.weight = kBits[below(9)];
+      options.position_bits = kBits[below(9)];
+      options.texcoord_bits = kBits[below(9)];
+      options.color_bits = kBits[below(9)];
+      options.weight_bits = kBits[below(9)];
       static const uint8_t kUnitBits[] = {0, 2, 3, 8, 10, 12, 16};
-      options.bits.normal = kUnitBits[below(7)];
-      options.bits.tangent = kUnitBits[below(7)];
+      options.normal_bits = kUnitBits[below(7)];
+      options.tangent_bits = kUnitBits[below(7)];
     }
     if (chance(8)) {
       options.is_error_relative = chance(50);
@@ -1488,12 +1430,12 @@ std::string describe(const ConvertOptions& options) {
   const ConvertOptions standard;
   std::string text;
   const auto add = [&](const std::string& word) { text += (text.empty() ? "" : " ") + word; };
-  const QuantizationBits& bits = options.bits;
+  const QuantizationBits& bits = options;
   if (options.lossless) add("lossless");
-  if (bits.position != 14 || bits.normal != 10 || bits.texcoord != 12) {
-    add("bits " + std::to_string(bits.position) + "," + std::to_string(bits.normal) + "," +
-        std::to_string(bits.texcoord) + "," + std::to_string(bits.color) + "," +
-        std::to_string(bits.tangent) + "," + std::to_string(bits.weight));
+  if (bits.position_bits != 14 || bits.normal_bits != 10 || bits.texcoord_bits != 12) {
+    add("bits " + std::to_string(bits.position_bits) + "," + std::to_string(bits.normal_bits) +
+        "," + std::to_string(bits.texcoord_bits) + "," + std::to_string(bits.color_bits) + "," +
+        std::to_string(bits.tangent_bits) + "," + std::to_string(bits.weight_bits));
   }
   if (options.max_position_error != 0)
     add("max-error " + std::to_string(options.max_position_error) +

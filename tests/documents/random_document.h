@@ -6,17 +6,12 @@
 #define MCC_TESTS_DOCUMENTS_RANDOM_DOCUMENT_H_
 
 #include <cstdint>
-#include <map>
 #include <string>
-#include <vector>
 
 #include "mcc/glb.h"
+#include "support/document_compare.h"
 
 namespace mcc::gltf::test {
-
-using Bytes = std::vector<uint8_t>;
-/// Files by their names.
-using Files = std::map<std::string, Bytes>;
 
 /// A document and how to convert it.
 struct RandomDocument {
@@ -25,9 +20,7 @@ struct RandomDocument {
   /// Something in it may be refused with a message: it contradicts itself, in a way that users'
   /// files do.
   bool may_be_refused = false;
-  /// Unknown extensions name them: they keep their numbers and bytes.
-  std::vector<uint32_t> kept_views;
-  std::vector<uint32_t> kept_accessors;
+  KeptNumbers kept;  ///< unknown extensions name them
   ConvertOptions options;
   bool writes_gltf = false;  ///< the output is a .gltf, else a .glb
   bool to_memory = false;    ///< the output is a GLB in memory; else a file

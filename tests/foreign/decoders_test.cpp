@@ -10,7 +10,7 @@
 #include "foreign/decoders.h"
 #include "foreign/draco_codec.h"
 #include "foreign/meshopt_codec.h"
-#include "gltf/gltf_builder.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::foreign {
 namespace {

@@ -25,6 +25,7 @@
 #define MCC_HAS_DRACO_HEADERS 1
 #include "draco/compression/expert_encode.h"
 #include "json/json.h"
+#include "support/triangles.h"
 #endif
 
 namespace mcc::foreign {
@@ -559,15 +560,8 @@ TEST(MeshoptCodec, LosslessIsExact) {
   }
   // The triangles, as sets of rotated index triples.
   const auto triples = [](std::span<const uint32_t> indices, const std::vector<uint32_t>& map) {
-    std::vector<std::array<uint32_t, 3>> result;
-    for (size_t i = 0; i < indices.size(); i += 3) {
-      std::array<uint32_t, 3> t = {indices[i], indices[i + 1], indices[i + 2]};
-      if (!map.empty()) t = {map[t[0]], map[t[1]], map[t[2]]};
-      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-      result.push_back(t);
-    }
-    std::sort(result.begin(), result.end());
-    return result;
+    return test::sorted(
+        test::trianglesOf(indices, [&](uint32_t i) { return map.empty() ? i : map[i]; }));
   };
   EXPECT_EQ(triples(decoded.indexSpan(), {}), triples(model.indices, encoded.wedge_vertex));
 }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gltf/gltf_builder.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::gltf::test {
 namespace {

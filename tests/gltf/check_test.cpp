@@ -12,7 +12,7 @@
 #include "gltf/check/values.h"
 #include "gltf/compress/compress.h"
 #include "gltf/compress/quantize.h"
-#include "gltf/gltf_builder.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::gltf::test {
 namespace {
@@ -207,7 +207,7 @@ TEST_F(Check, NoticesAnotherPayloadInPlaceOfAnOldOne) {
   EXPECT_EQ(verdict(compressed_.json, bin_), "");
   // The same triangles with other bits: a payload that fits the JSON in every count.
   ConvertOptions options;
-  options.bits.position = 9;
+  options.position_bits = 9;
   Compressed other;
   Document document;
   ASSERT_TRUE(loadDocument(file_, nullptr, document).ok());

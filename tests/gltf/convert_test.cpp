@@ -450,17 +450,18 @@ TEST(Convert, OptionsOutOfRangeAreRefused) {
   };
   using Bits = QuantizationBits;
   for (uint32_t bits = 0; bits < 256; ++bits) {
-    for (uint8_t Bits::*field : {&Bits::position, &Bits::texcoord, &Bits::color, &Bits::weight}) {
+    for (uint8_t Bits::*field :
+         {&Bits::position_bits, &Bits::texcoord_bits, &Bits::color_bits, &Bits::weight_bits}) {
       ConvertOptions options;
-      options.bits.*field = static_cast<uint8_t>(bits);
+      options.*field = static_cast<uint8_t>(bits);
       EXPECT_EQ(refusalOf(options),
                 bits <= 24 ? ""
                            : "the bits of positions, texture coordinates, colours and weights "
                              "are 0 to 24");
     }
-    for (uint8_t Bits::*field : {&Bits::normal, &Bits::tangent}) {
+    for (uint8_t Bits::*field : {&Bits::normal_bits, &Bits::tangent_bits}) {
       ConvertOptions options;
-      options.bits.*field = static_cast<uint8_t>(bits);
+      options.*field = static_cast<uint8_t>(bits);
       EXPECT_EQ(refusalOf(options), bits == 0 || (bits >= 2 && bits <= 16)
                                         ? ""
                                         : "the bits of normals and tangents are 0, or 2 to 16");

@@ -5,8 +5,8 @@
 
 #include <functional>
 
-#include "gltf/gltf_builder.h"
 #include "mcc/glb.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::gltf::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <map>
 #include <thread>
 
-#include "gltf/gltf_builder.h"
 #include "host/work_lock.h"
+#include "support/gltf_builder.h"
 #include "support/scratch_folder.h"
 #if !defined(_WIN32)
 #include <fcntl.h>

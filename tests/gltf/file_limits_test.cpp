@@ -73,7 +73,7 @@ std::vector<uint8_t> multiplied(std::span<const uint8_t> file, size_t n) {
 std::string decodeError(std::span<const uint8_t> file, uint64_t max_decoded_bytes) {
   std::vector<uint8_t> output;
   DecodeReport report;
-  FileDecodeOptions options;
+  DecodeOptions options;
   options.max_decoded_bytes = max_decoded_bytes;
   return decodeGlb(file, output, report, options).message();
 }

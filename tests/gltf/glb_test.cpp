@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "gltf/gltf_builder.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::gltf::test {
 namespace {

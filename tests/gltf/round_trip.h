@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "gltf/document/accessors.h"
-#include "gltf/gltf_builder.h"
 #include "mcc/glb.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::gltf::test {
 

@@ -32,7 +32,7 @@ inline Matrix product(const Matrix& a, const Matrix& b) {
 }
 
 /// A number however it is spelt.
-inline double numberOf(const Json& json) {
+inline double realOf(const Json& json) {
   return std::strtod(json.text().c_str(), nullptr);
 }
 
@@ -93,12 +93,12 @@ class SceneReader {
   Matrix localMatrix(const Json& node) const {
     Matrix matrix = identity();
     if (const Json* given = findMember(node, "matrix")) {
-      for (size_t i = 0; i < 16; ++i) matrix[i] = numberOf((*given)[i]);
+      for (size_t i = 0; i < 16; ++i) matrix[i] = realOf((*given)[i]);
       return matrix;
     }
     const Json* r = findMember(node, "rotation");
-    const double x = r ? numberOf((*r)[0]) : 0, y = r ? numberOf((*r)[1]) : 0;
-    const double z = r ? numberOf((*r)[2]) : 0, w = r ? numberOf((*r)[3]) : 1;
+    const double x = r ? realOf((*r)[0]) : 0, y = r ? realOf((*r)[1]) : 0;
+    const double z = r ? realOf((*r)[2]) : 0, w = r ? realOf((*r)[3]) : 1;
     const double rotation[9] = {
         1 - 2 * (y * y + z * z), 2 * (x * y + z * w),     2 * (x * z - y * w),
         2 * (x * y - z * w),     1 - 2 * (x * x + z * z), 2 * (y * z + x * w),
@@ -108,9 +108,9 @@ class SceneReader {
       const Json* translation = findMember(node, "translation");
       for (size_t row = 0; row < 3; ++row) {
         matrix[4 * column + row] =
-            rotation[3 * column + row] * (scale ? numberOf((*scale)[column]) : 1);
+            rotation[3 * column + row] * (scale ? realOf((*scale)[column]) : 1);
       }
-      if (translation) matrix[12 + column] = numberOf((*translation)[column]);
+      if (translation) matrix[12 + column] = realOf((*translation)[column]);
     }
     return matrix;
   }

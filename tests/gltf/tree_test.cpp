@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "gltf-mcc/tree_of_edges.h"
 #include "gltf/files/file_io.h"
 #include "gltf/round_trip.h"
 #include "mcc/files.h"
@@ -16,6 +17,8 @@ namespace mcc::gltf::test {
 namespace {
 
 namespace fs = std::filesystem;
+using tool::McTree;
+using tool::mcTree;
 
 std::vector<uint8_t> sample(const std::string& name) {
   std::vector<uint8_t> bytes;

@@ -10,9 +10,9 @@
 #include <functional>
 #include <iterator>
 
-#include "gltf/gltf_builder.h"
 #include "gltf/round_trip.h"
 #include "mcc/files.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::gltf::test {
 namespace {

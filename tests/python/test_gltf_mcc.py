@@ -6,6 +6,7 @@ import io
 import json
 import os
 import pickle
+import re
 import shutil
 import struct
 import subprocess
@@ -17,7 +18,7 @@ import zlib
 from pathlib import Path
 
 import gltf_mcc
-from gltf_mcc import accessors, arrays, primitives
+from gltf_mcc import _library, accessors, arrays, documents, primitives
 
 PROGRAM, SAMPLES, README = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
 
@@ -51,7 +52,7 @@ class Documents(unittest.TestCase):
         for sample in sorted(SAMPLES.glob("*.glb")):
             with tempfile.TemporaryDirectory() as folder:
                 out = Path(folder, "out.glb")
-                subprocess.run([PROGRAM, "convert", "-q", "--quantize-position", "12", sample, out], check=True,
+                subprocess.run([PROGRAM, "convert", "-q", "--position-bits", "12", sample, out], check=True,
                                stdout=subprocess.DEVNULL)
                 expected = out.read_bytes()
                 self.assertEqual(gltf_mcc.convert(sample, position_bits=12), expected, sample.name)
@@ -78,6 +79,15 @@ class Documents(unittest.TestCase):
                         {"prefer": "speed", "block_triangles": 100}, {"position_lattice": (0, 0, 0, 0.125)}):
             self.assertNotEqual(gltf_mcc.convert(data, **options), usual, options)
         self.assertEqual(gltf_mcc.convert(data, thread_count=2, grid="scene"), usual)
+
+    def test_enumerations_are_those_of_the_header(self):
+        header = (SAMPLES.parent / "lib/include/mcc/c_api.h").read_text()
+        for prefix, own in (("MCC_CODING_", {c.name: c.value for c in _library.Coding}),
+                            ("MCC_PREFER_", {n.upper(): k for k, n in enumerate(documents.PREFERENCES)}),
+                            ("MCC_GRID_", {n.upper(): k for k, n in enumerate(documents.GRIDS)}),
+                            ("MCC_DECODE_TO_", {n.upper(): k for k, n in enumerate(documents.DECODE_TO)})):
+            found = re.findall(rf"\b{prefix}(\w+) = (\d+)", header)
+            self.assertEqual(own, {name: int(number) for name, number in found}, prefix)
 
     def test_wrong_lattices(self):
         data = (SAMPLES / "torus.glb").read_bytes()
@@ -149,8 +159,8 @@ class Meshes(unittest.TestCase):
                                         bits={"POSITION": 10}, normalized=["TEXCOORD_1"],
                                         morph_targets=[{"POSITION": positions}])
         piece, = gltf_mcc.decode_payload(encoding.payload)
-        self.assertEqual([(a.name, a.morph_target, a.normalized) for a in piece.attributes],
-                         [("POSITION", 0, False), ("TEXCOORD_1", 0, True), ("POSITION", 1, False)])
+        self.assertEqual([(a.name, a.target, a.normalized) for a in piece.attributes],
+                         [("POSITION", -1, False), ("TEXCOORD_1", -1, True), ("POSITION", 0, False)])
         self.assertEqual(piece.attributes[0].coding, "lattice")
         self.assertEqual(piece.attributes[0].bits, 10)
         self.assertEqual([len(part) for part in piece.parts], [half // 3, len(indices) // 3 - half // 3])

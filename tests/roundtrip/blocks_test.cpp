@@ -23,6 +23,7 @@
 #include "support/mesh_compare.h"
 #include "support/mesh_generators.h"
 #include "support/run_jobs.h"
+#include "support/triangles.h"
 
 namespace mcc::test {
 namespace {
@@ -44,8 +45,7 @@ uint64_t properTriangles(const PieceView& piece) {
     for (size_t i = 0; i < part.indices.size(); i += 3) {
       std::array<uint32_t, 3> t = {part.indices[i], part.indices[i + 1], part.indices[i + 2]};
       if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-      triangles.insert(t);
+      triangles.insert(rotated(t));
     }
     count += triangles.size();
   }

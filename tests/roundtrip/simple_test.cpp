@@ -21,9 +21,12 @@ constexpr simple::EncodeOptions kExact = {0, 0, 0, 0, 0, 0, true, true};
 // What is written here and in glb.h is one set of defaults.
 constexpr gltf::QuantizationBits kBits;
 constexpr simple::EncodeOptions kDefaults;
-static_assert(kDefaults.position_bits == kBits.position && kDefaults.normal_bits == kBits.normal &&
-              kDefaults.texcoord_bits == kBits.texcoord && kDefaults.color_bits == kBits.color &&
-              kDefaults.tangent_bits == kBits.tangent && kDefaults.weight_bits == kBits.weight);
+static_assert(kDefaults.position_bits == kBits.position_bits &&
+              kDefaults.normal_bits == kBits.normal_bits &&
+              kDefaults.texcoord_bits == kBits.texcoord_bits &&
+              kDefaults.color_bits == kBits.color_bits &&
+              kDefaults.tangent_bits == kBits.tangent_bits &&
+              kDefaults.weight_bits == kBits.weight_bits);
 
 std::vector<float> waves(uint32_t count, float scale) {
   std::vector<float> values(count);

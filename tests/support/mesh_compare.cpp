@@ -9,6 +9,8 @@
 #include <limits>
 #include <sstream>
 
+#include "support/triangles.h"
+
 namespace mcc::test {
 namespace {
 
@@ -32,27 +34,11 @@ std::string nameOf(const AttributeFormat& format) {
   return name;
 }
 
-using Triangle = std::array<uint32_t, 3>;
-
-/// Triangles with the smallest corner first, sorted.
-std::vector<Triangle> canonical(std::span<const uint32_t> indices,
-                                std::span<const uint32_t> source_wedge) {
-  std::vector<Triangle> triangles(indices.size() / 3);
-  for (size_t t = 0; t < triangles.size(); ++t) {
-    Triangle corners{};
-    for (size_t k = 0; k < 3; ++k) {
-      const uint32_t v = indices[t * 3 + k];
-      corners[k] = source_wedge.empty() ? v : source_wedge[v];
-    }
-    Triangle best = corners;
-    for (int turned = 0; turned < 2; ++turned) {
-      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
-      best = std::min(best, corners);
-    }
-    triangles[t] = best;
-  }
-  std::sort(triangles.begin(), triangles.end());
-  return triangles;
+/// Sorted triangles, each beginning with its smallest corner.
+std::vector<TriangleOf<uint32_t>> canonical(std::span<const uint32_t> indices,
+                                            std::span<const uint32_t> source_wedge) {
+  return sorted(
+      trianglesOf(indices, [&](uint32_t v) { return source_wedge.empty() ? v : source_wedge[v]; }));
 }
 
 float componentAt(const uint8_t* element, size_t component) {
@@ -153,27 +139,10 @@ std::string compareBits(const AttributeView& source, const DecodedAttribute& dec
   return "";
 }
 
-double angleBetween(const uint8_t* a, const uint8_t* b) {
-  std::array<double, 3> u{};
-  std::array<double, 3> v{};
-  for (size_t k = 0; k < 3; ++k) {
-    u[k] = static_cast<double>(componentAt(a, k));
-    v[k] = static_cast<double>(componentAt(b, k));
-  }
-  const double dot = u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-  const double x = u[1] * v[2] - u[2] * v[1];
-  const double y = u[2] * v[0] - u[0] * v[2];
-  const double z = u[0] * v[1] - u[1] * v[0];
-  return std::atan2(std::sqrt(x * x + y * y + z * z), dot);
-}
-
-double lengthOf(const uint8_t* a) {
-  double sum = 0;
-  for (size_t k = 0; k < 3; ++k) {
-    const double x = static_cast<double>(componentAt(a, k));
-    sum += x * x;
-  }
-  return std::sqrt(sum);
+std::array<double, 3> directionOf(const uint8_t* element) {
+  std::array<double, 3> direction{};
+  for (size_t k = 0; k < 3; ++k) direction[k] = static_cast<double>(componentAt(element, k));
+  return direction;
 }
 
 /// Largest angle an octahedral grid of `bits` bits may turn a unit vector. Half a cell is h in x
@@ -190,9 +159,10 @@ std::string compareDirections(const AttributeView& source, const DecodedAttribut
   for (uint32_t i = 0; i < source_wedge.size(); ++i) {
     const uint8_t* expected = elementOf(source, source_wedge[i]);
     const uint8_t* got = elementOf(decoded, i);
-    const double length = lengthOf(got);
+    const auto [x, y, z] = directionOf(got);
+    const double length = std::sqrt(x * x + y * y + z * z);
     if (!(std::abs(length - 1) < 1e-3)) return text("wedge ", i, ": its length is ", length);
-    const double angle = angleBetween(expected, got);
+    const double angle = angleBetween(directionOf(expected), directionOf(got));
     if (!(angle <= bound))
       return text("wedge ", i, ": off by ", angle, " rad, allowed are ", bound);
     if (has_sign && componentAt(expected, 3) != componentAt(got, 3))
@@ -282,12 +252,12 @@ std::string compareTriangles(std::span<const uint32_t> source, std::span<const u
     if (v >= source_wedge.size())
       return text("index ", v, " is beyond the ", source_wedge.size(), " wedges");
   }
-  const std::vector<Triangle> expected = canonical(source, {});
-  const std::vector<Triangle> got = canonical(decoded, source_wedge);
+  const std::vector<TriangleOf<uint32_t>> expected = canonical(source, {});
+  const std::vector<TriangleOf<uint32_t>> got = canonical(decoded, source_wedge);
   for (size_t t = 0; t < std::max(expected.size(), got.size()); ++t) {
     if (t < expected.size() && t < got.size() && expected[t] == got[t]) continue;
     const bool missing = t >= got.size() || (t < expected.size() && expected[t] < got[t]);
-    const Triangle& odd = missing ? expected[t] : got[t];
+    const TriangleOf<uint32_t>& odd = missing ? expected[t] : got[t];
     return text("triangle ", odd[0], ' ', odd[1], ' ', odd[2],
                 missing ? " of the source is missing" : " is too much", " (", expected.size(),
                 " went in, ", got.size(), " came back)");

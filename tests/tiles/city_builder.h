@@ -15,6 +15,7 @@
 
 #include "foreign/decoders.h"
 #include "gltf/document/accessors.h"
+#include "support/triangles.h"
 #include "tiles/convert_tile.h"
 #include "tiles/tileset_builder.h"
 
@@ -175,18 +176,9 @@ inline std::vector<uint32_t> indicesOf(const Bytes& file, uint32_t accessor) {
   return indices;
 }
 
-/// Triangles, rotated to a fixed first corner and sorted.
-inline std::vector<std::array<Corner, 3>> sortedTriangles(const std::vector<Corner>& corners,
-                                                          const std::vector<uint32_t>& indices) {
-  std::vector<std::array<Corner, 3>> triangles;
-  for (size_t i = 0; i + 2 < indices.size(); i += 3) {
-    const Corner& a = corners.at(indices[i]);
-    const Corner& b = corners.at(indices[i + 1]);
-    const Corner& c = corners.at(indices[i + 2]);
-    triangles.push_back(std::min({std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}));
-  }
-  std::sort(triangles.begin(), triangles.end());
-  return triangles;
+inline std::vector<TriangleOf<Corner>> sortedTriangles(const std::vector<Corner>& corners,
+                                                       const std::vector<uint32_t>& indices) {
+  return sorted(trianglesOf(indices, [&](uint32_t index) { return corners.at(index); }));
 }
 
 /// Expects the same triangles, up to order, with the same points of the grid and equal `names`.

@@ -128,7 +128,7 @@ Bytes imageOf(const Bytes& file) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// Textures keep their bytes, and texture coordinates are as accurate as --quantize-texcoord says:
+/// Textures keep their bytes, and texture coordinates are as accurate as --texcoord-bits says:
 /// corners of texels of a texture of 2^k texels stay where they are to within half a step.
 TEST(FeatureIds, TexturesOfIdsAndProperties) {
   const City city(7);

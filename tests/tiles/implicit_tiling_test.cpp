@@ -32,29 +32,19 @@ struct SubtreeBuilder {
   Bytes binary;
 
   size_t addView(const Bytes& bytes) {
-    binary.resize((binary.size() + 7) / 8 * 8, 0);
+    padTo8(binary);
     json["bufferViews"].push_back(
         {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}});
-    binary.insert(binary.end(), bytes.begin(), bytes.end());
+    append(binary, bytes);
     return json["bufferViews"].size() - 1;
   }
   Json addBits(const std::vector<bool>& available) {
     return {{"bitstream", addView(bitsOf(available))}};
   }
   Bytes finish() {
-    binary.resize((binary.size() + 7) / 8 * 8, 0);
+    padTo8(binary);
     json["buffers"] = {{{"byteLength", binary.size()}}};
-    const std::string text = paddedJson(json.dump(), 24);
-    Bytes file;
-    appendText(file, "subt");
-    appendNumber(file, 1);
-    for (const size_t bytes : {text.size(), binary.size()}) {
-      appendNumber(file, static_cast<uint32_t>(bytes));
-      appendNumber(file, 0);
-    }
-    appendText(file, text);
-    file.insert(file.end(), binary.begin(), binary.end());
-    return file;
+    return test::makeSubtree(paddedJson(json.dump(), 24), binary);
   }
 };
 

@@ -344,11 +344,11 @@ TEST_F(Tiles, GridsThatAreTooFineAreNoted) {
 }
 
 TEST_F(Tiles, BitsReplaceTheErrorShare) {
-  ASSERT_EQ(run("tiles in/tileset.json out --quantize-position 11 --report r.json").status, 0);
+  ASSERT_EQ(run("tiles in/tileset.json out --position-bits 11 --report r.json").status, 0);
   const Json level = Json::parse(contentOf(path("r.json")))["levels"][1];
   EXPECT_EQ(level["position_bits"], Json({11, 11}));
   EXPECT_FALSE(level.contains("promised_error"));
-  EXPECT_EQ(run("tiles in/tileset.json out --quantize-position 11 --error-share 0.1").status, 2);
+  EXPECT_EQ(run("tiles in/tileset.json out --position-bits 11 --error-share 0.1").status, 2);
 }
 
 TEST_F(Tiles, DeepTreesAreRead) {

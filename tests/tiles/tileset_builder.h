@@ -5,61 +5,15 @@
 #define MCC_TESTS_TILES_TILESET_BUILDER_H_
 
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
-#include "gltf/gltf_builder.h"
+#include "support/gltf_builder.h"
+#include "support/tile_builder.h"
 
 namespace mcc::test {
-
-using Bytes = std::vector<uint8_t>;
-using gltf::Json;
-
-inline void appendNumber(Bytes& to, uint32_t value) {
-  for (int i = 0; i < 4; ++i) to.push_back(static_cast<uint8_t>(value >> (8 * i)));
-}
-
-inline void appendText(Bytes& to, const std::string& text) {
-  to.insert(to.end(), text.begin(), text.end());
-}
-
-/// Pads JSON so that what follows a header of `header_bytes` and it is at a multiple of 8.
-inline std::string paddedJson(std::string text, size_t header_bytes) {
-  while ((header_bytes + text.size()) % 8 != 0) text += ' ';
-  return text;
-}
-
-/// The four tables of a b3dm or i3dm.
-struct Tables {
-  std::string feature_json;
-  Bytes feature_binary;
-  std::string batch_json;
-  Bytes batch_binary;
-};
-
-inline Bytes makeModelTile(const std::string& magic, const Tables& tables, const Bytes& glb) {
-  Bytes tile;
-  appendText(tile, magic);
-  appendNumber(tile, 1);
-  appendNumber(tile, 0);
-  appendNumber(tile, static_cast<uint32_t>(tables.feature_json.size()));
-  appendNumber(tile, static_cast<uint32_t>(tables.feature_binary.size()));
-  appendNumber(tile, static_cast<uint32_t>(tables.batch_json.size()));
-  appendNumber(tile, static_cast<uint32_t>(tables.batch_binary.size()));
-  if (magic == "i3dm") appendNumber(tile, 1);
-  appendText(tile, tables.feature_json);
-  tile.insert(tile.end(), tables.feature_binary.begin(), tables.feature_binary.end());
-  appendText(tile, tables.batch_json);
-  tile.insert(tile.end(), tables.batch_binary.begin(), tables.batch_binary.end());
-  tile.insert(tile.end(), glb.begin(), glb.end());
-  tile.resize((tile.size() + 7) / 8 * 8, 0);
-  const auto size = static_cast<uint32_t>(tile.size());
-  std::memcpy(tile.data() + 8, &size, 4);
-  return tile;
-}
 
 inline Bytes makeB3dm(const Bytes& glb, uint32_t batch_count) {
   Tables tables;
@@ -86,18 +40,6 @@ inline Bytes makeI3dm(const Bytes& glb, float scale) {
   tables.feature_binary =
       gltf::test::bytesOf(std::vector<float>{0, 0, 0, 100, 0, 0, scale / 2, scale});
   return makeModelTile("i3dm", tables, glb);
-}
-
-inline Bytes makeCmpt(const std::vector<Bytes>& inner) {
-  Bytes tile;
-  appendText(tile, "cmpt");
-  appendNumber(tile, 1);
-  appendNumber(tile, 0);
-  appendNumber(tile, static_cast<uint32_t>(inner.size()));
-  for (const Bytes& one : inner) tile.insert(tile.end(), one.begin(), one.end());
-  const auto size = static_cast<uint32_t>(tile.size());
-  std::memcpy(tile.data() + 8, &size, 4);
-  return tile;
 }
 
 inline Bytes makePnts() {

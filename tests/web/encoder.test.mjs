@@ -31,14 +31,14 @@ const CASES = [
   ['moebius', {}, []],
   ['textured', { lossless: true }, ['--lossless']],
   ['textured', { positionBits: 11, normalBits: 8, texcoordBits: 10 },
-    ['--quantize-position', '11', '--quantize-normal', '8', '--quantize-texcoord', '10']],
-  ['sphere', { maxPositionError: 0.001 }, ['--max-error', '0.001']],
-  ['sphere', { maxPositionError: 0.0005, isErrorRelative: true }, ['--max-error-relative', '0.0005']],
-  ['two_materials', { keepVertexOrder: true, keepTriangleOrder: true }, ['--keep-order', 'both']],
+    ['--position-bits', '11', '--normal-bits', '8', '--texcoord-bits', '10']],
+  ['sphere', { maxPositionError: 0.001 }, ['--max-position-error', '0.001']],
+  ['sphere', { maxPositionError: 0.0005, isErrorRelative: true }, ['--max-position-error', '0.0005', '--is-error-relative']],
+  ['two_materials', { keepVertexOrder: true, keepTriangleOrder: true }, ['--keep-vertex-order', '--keep-triangle-order']],
   ['skinned', { indicesOnly: true }, ['--indices-only']],
   ['two_materials', { grid: 'primitive' }, ['--grid', 'primitive']],
   ['sphere', { prefer: 'speed' }, ['--prefer', 'speed']],
-  ['torus', { blockTriangles: 500 }, ['--block', '500']],
+  ['torus', { blockTriangles: 500 }, ['--block-triangles', '500']],
 ];
 
 /** Measured angles depend on the C library's arc tangent. */

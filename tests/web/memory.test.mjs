@@ -71,7 +71,7 @@ async function isGone(reference) {
 }
 
 test('the memory of a large model is given back', async () => {
-  const large = payloadOf(convert(gridGlb(900), ['--block', '0'])); // blocks take less
+  const large = payloadOf(convert(gridGlb(900), ['--block-triangles', '0'])); // blocks take less
   const decoder = new Decoder(await WebAssembly.compile(wasm('mcc_decoder')));
   const memories = await memoriesOf(async () => {
     await decoder.decode(large);

@@ -53,7 +53,7 @@ describe('package', () => {
     for (const file of ['README.md', 'LICENSE', 'index.mjs', 'index.d.mts', 'worker.mjs']) assert.ok(files.includes(file), file);
     assert.deepEqual(files.filter((file) => !/^(README\.md|LICENSE|package\.json|wasm|service_worker_register\.js|[\w-]+\.(mjs|d\.mts))$/.test(file)), []);
     assert.deepEqual(readdirSync(join(installed, 'wasm')).sort(),
-      ['mcc_decoder.wasm', 'mcc_decoder_core.wasm', 'mcc_decoder_core_simd.wasm', 'mcc_decoder_simd.wasm', 'mcc_encoder.wasm']);
+      ['core_text.mjs', 'mcc_decoder.wasm', 'mcc_decoder_core.wasm', 'mcc_decoder_core_simd.wasm', 'mcc_decoder_simd.wasm', 'mcc_encoder.wasm']);
   });
 
   test('every export is there', () => {
@@ -135,6 +135,7 @@ describe('package', () => {
       console.log(`gltf-mcc/${name}, minified, after brotli: ${await scriptBytes(exported, `gltf-mcc/${name}`)} bytes`);
     }
     console.log(`decodePayload(), minified, after brotli: ${await scriptBytes('decodePayload')} bytes`);
+    console.log(`and with the core inside: ${await scriptBytes('decodePayload', 'gltf-mcc/inline')} bytes`);
     const script = await scriptBytes('decodePayload, unpackGlb');
     console.log(`decodePayload() and unpackGlb(), minified, after brotli: ${script} bytes`);
     console.log(`and unpackTile(), minified, after brotli: ${await scriptBytes('decodePayload, unpackGlb, unpackTile')} bytes`);

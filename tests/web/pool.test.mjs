@@ -6,6 +6,7 @@ import { after, test } from 'node:test';
 import { createDecoderPool, decodePayload, MccError } from '../../lib/web/index.mjs';
 import { blocksPayload } from './support/blocks.mjs';
 import { manifest, payloadOf, readAsset } from './support/conformance.mjs';
+import { convert, readSample } from './support/program.mjs';
 
 const payload = () => payloadOf(readAsset(manifest.assets.find(({ file }) => file.endsWith('_tetrahedron.glb'))));
 const expected = await decodePayload(payload());
@@ -147,6 +148,34 @@ test('a worker of a browser that fails settles its promise and is replaced', asy
       assert.deepEqual(await settled(other.decodePayload(payload())), expected);
     }
     assert.equal(made.length, 3);
+    other.dispose();
+  });
+});
+
+test('a worker that was busy gets the small payloads that have come meanwhile in one message, and each has its own result', async () => {
+  const made = [];
+  const counts = [];
+  await withWorkers((worker) => made.push(worker), async () => {
+    const other = createDecoderPool({ workers: 1 });
+    assert.deepEqual(await settled(other.decodePayload(payload())), expected);
+    const [worker] = made;
+    const { postMessage } = worker;
+    worker.postMessage = function post(message, moved) {
+      if (message.jobs !== undefined) counts.push(message.jobs.length);
+      postMessage.call(worker, message, moved);
+    };
+    const damaged = payload();
+    damaged[damaged.length - 1] ^= 1;
+    const whole = payloadOf(convert(readSample('torus'), ['--lossless']));
+    const [first, second, third, fourth] = await settled(Promise.allSettled([payload(), damaged, whole, payload()].map((bytes) => other.decodePayload(bytes))));
+    assert.deepEqual([first.value, fourth.value], [expected, expected]);
+    assert.equal(second.reason.code, 'BadChecksum');
+    assert.ok(third.value.pieces[0].wedgeCount > 0, 'by the whole decoder');
+    assert.ok(counts.length < 4, `${counts}`);
+    counts.length = 0;
+    const [, wrong, right] = await settled(Promise.allSettled([{}, { claims: [() => {}] }, {}].map((options) => other.decodePayload(payload(), options))));
+    assert.equal(wrong.reason.code, 'BadArgument');
+    assert.deepEqual(right.value, expected);
     other.dispose();
   });
 });

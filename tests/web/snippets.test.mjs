@@ -26,7 +26,7 @@ const OTHERWISE = {
 /** What the text around a snippet imports. */
 const IMPORTS = {
   'gltf-mcc': ['decodePayload', 'unpackGlb'],
-  'gltf-mcc/three': ['MeshCollapsePlugin'],
+  'gltf-mcc/three': ['registerMeshCollapse'],
   'three': ['Group', 'Mesh', 'MeshStandardMaterial'],
 };
 /** What TypeScript asks of any program that uses these engines: their types say less than they do. */

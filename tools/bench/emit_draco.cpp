@@ -10,6 +10,7 @@
 #include "gltf/decompress/coded_input.h"
 #include "gltf/document/accessors.h"
 #include "gltf/document/layout.h"
+#include "gltf/document/references.h"
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
 #include "host/parallel.h"
@@ -38,12 +39,6 @@ void setBound(const char* name, const std::vector<double>& values, ComponentType
   } else if (is_required || gltf::findMember(accessor, name) != nullptr) {
     accessor[name] = gltf::boundNumbers(values, type);
   }
-}
-
-void addExtensionName(const char* list, Json& root) {
-  Json& names = root[list];
-  if (!names.is_array()) names = Json::array();
-  if (std::find(names.begin(), names.end(), kDracoName) == names.end()) names.push_back(kDracoName);
 }
 
 /// Writes encoded parts into the JSON of a document.
@@ -79,8 +74,8 @@ class Emitter {
 
   gltf::Result finish(std::vector<uint8_t>& file) {
     if (!views_.empty()) {
-      addExtensionName("extensionsUsed", json_);
-      addExtensionName("extensionsRequired", json_);
+      gltf::addExtensionName(json_, "extensionsUsed", kDracoName);
+      gltf::addExtensionName(json_, "extensionsRequired", kDracoName);
     }
     const gltf::Layout layout = gltf::layOut(document_, views_, json_);
     std::span<uint8_t> bin;

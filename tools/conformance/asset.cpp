@@ -10,7 +10,6 @@
 #include "format/predictors.h"
 #include "gltf/compress/plan.h"
 #include "gltf/document/accessors.h"
-#include "gltf/document/glb.h"
 #include "gltf/document/payload.h"
 #include "support/mesh_compare.h"
 #include "support/sha256.h"
@@ -18,28 +17,7 @@
 namespace mcc::conformance {
 namespace {
 
-struct Shape {
-  uint32_t columns;
-  uint32_t rows;
-};
-
-Shape shapeOf(const std::string& type) {
-  if (type == "SCALAR") return {1, 1};
-  const auto size = static_cast<uint32_t>(type.back() - '0');
-  return type.starts_with("MAT") ? Shape{size, size} : Shape{1, size};
-}
-
-uint32_t enumerantOf(ComponentType type) {
-  switch (type) {
-    case ComponentType::kInt8: return 5120;
-    case ComponentType::kUint8: return 5121;
-    case ComponentType::kInt16: return 5122;
-    case ComponentType::kUint16: return 5123;
-    case ComponentType::kUint32: return 5125;
-    case ComponentType::kFloat32: break;
-  }
-  return 5126;
-}
+using gltf::test::enumerantOf;
 
 void check(const gltf::Result& result, const std::string& name) {
   if (!result.ok()) throw std::runtime_error(name + ": " + result.message());
@@ -55,27 +33,24 @@ class Document {
  public:
   explicit Document(const Asset& asset) : asset_(asset) {
     check(gltf::decodePayload(asset.payload, asset.name, decoded_), asset.name);
-    bin_ = asset.payload;
-    json_ = {{"asset", {{"version", "2.0"}, {"generator", "generate-conformance"}}},
-             {"extensionsUsed", {gltf::kExtensionName}},
-             {"extensionsRequired", {gltf::kExtensionName}},
-             {"scene", 0},
-             {"scenes", {{{"nodes", {0}}}}},
-             {"nodes", {{{"mesh", 0}}}},
-             {"meshes", {{{"primitives", Json::array()}}}},
-             {"accessors", Json::array()},
-             {"bufferViews",
-              {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", asset.payload.size()}}}}};
+    builder_.json = {{"asset", {{"version", "2.0"}, {"generator", "generate-conformance"}}},
+                     {"extensionsUsed", {gltf::kExtensionName}},
+                     {"extensionsRequired", {gltf::kExtensionName}},
+                     {"scene", 0},
+                     {"scenes", {{{"nodes", {0}}}}},
+                     {"nodes", {{{"mesh", 0}}}},
+                     {"meshes", {{{"primitives", Json::array()}}}},
+                     {"accessors", Json::array()}};
+    builder_.addView(asset.payload);
     expected_ = Json::array();
     const PayloadInfo& info = decoded_.payload.info();
     for (uint32_t p = 0; p < info.pieces.size(); ++p) {
       if (info.pieces[p].wedge_count != 0) addPiece(p, info.pieces[p]);
     }
-    json_["buffers"] = {{{"byteLength", bin_.size()}}};
+    builder_.json["buffers"] = {{{"byteLength", builder_.bin.size()}}};
   }
 
-  const Json& json() const { return json_; }
-  const std::vector<uint8_t>& bin() const { return bin_; }
+  const gltf::test::Builder& made() const { return builder_; }
   const Json& expected() const { return expected_; }
 
  private:
@@ -123,18 +98,14 @@ class Document {
                      {"type", a.type}};
     if (a.format.normalized) accessor["normalized"] = true;
     if (a.name == "POSITION") addBounds(accessor, a, tight);
-    json_["accessors"].push_back(std::move(accessor));
-    return static_cast<uint32_t>(json_["accessors"].size() - 1);
+    return builder_.addAccessor(accessor);
   }
 
   /// An accessor with elements of its own.
   uint32_t addOrdinary(const NamedAttribute& a, uint32_t count) {
     const uint32_t number = addAccessor(a, count, a.bytes);
-    while (bin_.size() % 4 != 0) bin_.push_back(0);
-    json_["bufferViews"].push_back(
-        {{"buffer", 0}, {"byteOffset", bin_.size()}, {"byteLength", a.bytes.size()}});
-    bin_.insert(bin_.end(), a.bytes.begin(), a.bytes.end());
-    json_["accessors"][number]["bufferView"] = json_["bufferViews"].size() - 1;
+    const uint32_t view = builder_.addView(a.bytes);
+    builder_.json["accessors"][number]["bufferView"] = view;
     return number;
   }
 
@@ -181,27 +152,22 @@ class Document {
       const std::vector<uint32_t>& indices = decoded_.pieces[p].parts[part];
       if (indices.empty()) continue;
       if (part != 0) extension["part"] = part;
-      json_["accessors"].push_back({{"componentType", enumerantOf(indexType(info.wedge_count))},
-                                    {"count", indices.size()},
-                                    {"type", "SCALAR"}});
-      primitive["indices"] = json_["accessors"].size() - 1;
+      primitive["indices"] =
+          builder_.addAccessor({{"componentType", enumerantOf(indexType(info.wedge_count))},
+                                {"count", indices.size()},
+                                {"type", "SCALAR"}});
       primitive["extensions"][gltf::kExtensionName] = extension;
-      json_["meshes"][0]["primitives"].push_back(primitive);
-      std::vector<uint8_t> bytes;
-      for (const uint32_t index : indices) {
-        for (uint32_t shift = 0; shift < 32; shift += 8)
-          bytes.push_back(static_cast<uint8_t>(index >> shift));
-      }
-      expected["indices"] = {{"count", indices.size()}, {"sha256", test::sha256(bytes)}};
+      builder_.json["meshes"][0]["primitives"].push_back(primitive);
+      expected["indices"] = {{"count", indices.size()},
+                             {"sha256", test::sha256(gltf::test::bytesOf(indices))}};
       expected_.push_back(expected);
     }
   }
 
   const Asset& asset_;
   gltf::DecodedPayload decoded_;
-  Json json_;
+  gltf::test::Builder builder_;
   Json expected_;
-  std::vector<uint8_t> bin_;
 };
 
 std::vector<std::vector<AttributeView>> viewsOf(const Source& source) {
@@ -251,8 +217,8 @@ void writeFractions(Json& json) {
 NamedAttribute makeAttribute(const std::string& name, uint32_t target, const std::string& type,
                              ComponentType component_type, bool normalized) {
   gltf::Accessor accessor;
-  accessor.columns = shapeOf(type).columns;
-  accessor.rows = shapeOf(type).rows;
+  accessor.columns = gltf::test::shapeOf(type).columns;
+  accessor.rows = gltf::test::shapeOf(type).rows;
   accessor.component_type = component_type;
   accessor.normalized = normalized;
   NamedAttribute a;
@@ -323,11 +289,29 @@ Asset encodeSource(const Source& source) {
   return asset;
 }
 
+std::string slug(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'))
+      out += c;
+    else if (c >= 'A' && c <= 'Z')
+      out += static_cast<char>(c - 'A' + 'a');
+    else if (!out.empty() && out.back() != '_')
+      out += '_';
+  }
+  return out;
+}
+
+gltf::test::Builder documentOf(const Asset& asset) {
+  gltf::test::Builder made = Document(asset).made();
+  if (asset.numbers_with_fractions) writeFractions(made.json);
+  made.bin.resize((made.bin.size() + 3) & ~size_t{3}, 0);
+  return made;
+}
+
 std::vector<uint8_t> makeGlb(const Asset& asset) {
-  const Document document(asset);
-  Json json = document.json();
-  if (asset.numbers_with_fractions) writeFractions(json);
-  return glbOf(json, document.bin());
+  const gltf::test::Builder made = documentOf(asset);
+  return glbOf(made.json, made.bin);
 }
 
 Json expectedOf(const Asset& asset) { return Document(asset).expected(); }

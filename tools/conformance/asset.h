@@ -12,6 +12,7 @@
 
 #include "json/json.h"
 #include "mcc/reader.h"
+#include "support/gltf_builder.h"
 #include "writer/settings.h"
 
 namespace mcc::conformance {
@@ -32,6 +33,11 @@ struct NamedAttribute {
   void append(T value) {
     const auto* first = reinterpret_cast<const uint8_t*>(&value);
     bytes.insert(bytes.end(), first, first + sizeof(T));
+  }
+  /// The lowest bytes of an integer, as many as a component has.
+  void appendInteger(int64_t value) {
+    for (uint32_t k = 0; k < componentBytes(format.component_type); ++k)
+      append(static_cast<uint8_t>(value >> (8 * k)));
   }
 };
 
@@ -77,8 +83,14 @@ Asset encodeSource(const Source& source);
 std::vector<uint8_t> bytesOf(const std::string& hex);
 const Asset& closestTo(const std::vector<uint8_t>& payload, std::span<const Asset> assets);
 
+/// Letters and digits in lower case, and a single underscore for what is between them.
+std::string slug(const std::string& text);
+
 /// The file: one mesh, one primitive for each part that has triangles.
 std::vector<uint8_t> makeGlb(const Asset& asset);
+
+/// The same before it is written; the bytes are padded.
+gltf::test::Builder documentOf(const Asset& asset);
 
 /// The member "primitives" of the manifest: counts and hashes of what decodes.
 Json expectedOf(const Asset& asset);

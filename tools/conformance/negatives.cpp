@@ -13,7 +13,6 @@
 #include "entropy/enc_coder.h"
 #include "format/predictors.h"
 #include "found.h"
-#include "gltf/document/glb.h"
 #include "header_fields.h"
 #include "mcc/glb.h"
 #include "sources.h"
@@ -45,19 +44,6 @@ PayloadHeader headerOf(std::span<const uint8_t> payload) {
   const Status status = parsePayload(payload, {}, header);
   if (!status.ok()) throw std::runtime_error(status.what);
   return header;
-}
-
-std::string slug(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'))
-      out += c;
-    else if (c >= 'A' && c <= 'Z')
-      out += static_cast<char>(c - 'A' + 'a');
-    else if (!out.empty() && out.back() != '_')
-      out += '_';
-  }
-  return out;
 }
 
 /// Gives an attribute the flag MORE, with this set and morph target. `attribute` is the prefix of
@@ -190,16 +176,12 @@ class Maker {
 
   /// The file of an asset with another payload.
   static std::vector<uint8_t> withPayload(const Asset& asset, const Bytes& payload) {
-    const std::vector<uint8_t> file = makeGlb(asset);
-    gltf::GlbFile glb;
-    Json json;
-    if (!gltf::readGlb(file, glb).ok() || !gltf::parseJson(glb.json, json).ok())
-      throw std::runtime_error("an asset is no GLB");
+    auto [json, source_bin] = documentOf(asset);
     Bytes bin = payload;
     while (bin.size() % 4 != 0) bin.push_back(0);
     const size_t before = (asset.payload.size() + 3) & ~size_t{3};
-    if (glb.bin.size() > before)
-      bin.insert(bin.end(), glb.bin.begin() + static_cast<std::ptrdiff_t>(before), glb.bin.end());
+    bin.insert(bin.end(), source_bin.begin() + static_cast<std::ptrdiff_t>(before),
+               source_bin.end());
     const int64_t moved =
         static_cast<int64_t>((payload.size() + 3) & ~size_t{3}) - static_cast<int64_t>(before);
     for (Json& view : json["bufferViews"]) {
@@ -1180,14 +1162,10 @@ class Maker {
   /// extension object.
   void document(const std::string& name, const std::string& shows, const Asset& asset,
                 const std::function<void(Json& json, Json& primitive, Json& extension)>& change) {
-    const std::vector<uint8_t> file = makeGlb(asset);
-    gltf::GlbFile glb;
-    Json json;
-    if (!gltf::readGlb(file, glb).ok() || !gltf::parseJson(glb.json, json).ok())
-      throw std::runtime_error("an asset is no GLB");
+    auto [json, bin] = documentOf(asset);
     Json& primitive = json["meshes"][0]["primitives"][0];
     change(json, primitive, primitive["extensions"][gltf::kExtensionName]);
-    addFile(name, "restrictions", 0, shows, glbOf(json, glb.bin));
+    addFile(name, "restrictions", 0, shows, glbOf(json, bin));
   }
 
   void documents() {
@@ -1415,12 +1393,7 @@ class Maker {
 
   void invalid(const std::string& name, const std::string& rule, const std::string& code,
                const std::string& shows, const Asset& asset, const DocumentChange& change) {
-    const std::vector<uint8_t> file = makeGlb(asset);
-    gltf::GlbFile glb;
-    Json json;
-    if (!gltf::readGlb(file, glb).ok() || !gltf::parseJson(glb.json, json).ok())
-      throw std::runtime_error("an asset is no GLB");
-    Bytes bin(glb.bin.begin(), glb.bin.end());
+    auto [json, bin] = documentOf(asset);
     change(json, json["meshes"][0]["primitives"][0], bin);
     Invalid made{slug(rule) + "_" + slug(name), shows, rule, code, glbOf(json, bin)};
     gltf::ValidationReport report;
@@ -1468,11 +1441,9 @@ class Maker {
   /// Gives an accessor a buffer view of its own, of zeros.
   static void addElements(Json& json, size_t accessor, Bytes& bin) {
     Json& a = json["accessors"][accessor];
-    const size_t component_bytes = a["componentType"].get<int>() < 5122   ? 1
-                                   : a["componentType"].get<int>() < 5124 ? 2
-                                                                          : 4;
-    const size_t bytes =
-        a["count"].get<size_t>() * component_bytes * (a["type"] == "SCALAR" ? 1 : 3);
+    const size_t bytes = a["count"].get<size_t>() *
+                         gltf::test::widthOf(a["componentType"].get<int>()) *
+                         gltf::test::shapeOf(a["type"].text()).rows;
     bin.resize((bin.size() + 3) / 4 * 4);
     a["bufferView"] = json["bufferViews"].size();
     json["bufferViews"].push_back(

@@ -193,12 +193,7 @@ class SourceBuilder {
     NamedAttribute a = makeAttribute(name, target, type, component_type, normalized);
     for (uint32_t w = 0; w < piece_.wedge_count; ++w) {
       for (uint32_t c = 0; c < a.format.component_count; ++c) {
-        const auto x = static_cast<int64_t>(value({mesh_, w}, c));
-        switch (componentBytes(component_type)) {
-          case 1: a.append(static_cast<uint8_t>(x)); break;
-          case 2: a.append(static_cast<uint16_t>(x)); break;
-          default: a.append(static_cast<uint32_t>(x)); break;
-        }
+        a.appendInteger(static_cast<int64_t>(value({mesh_, w}, c)));
       }
     }
     piece_.attributes.push_back(std::move(a));
@@ -314,11 +309,7 @@ class SourceBuilder {
       const auto whole = static_cast<float>(rest);
       for (uint32_t k = 0; k < 4; ++k) {
         if (weight[k] == 0 && !idle) joint[k] = 0;
-        if (joints.format.component_type == ComponentType::kUint8) {
-          joints.append(static_cast<uint8_t>(joint[k]));
-        } else {
-          joints.append(static_cast<uint16_t>(joint[k]));
-        }
+        joints.appendInteger(joint[k]);
         const float share = weight[k] / sum;
         if (types[weights_as] == ComponentType::kFloat32) {
           weights.append(loose && random_.chance(20) ? share * 0.5f : share);
@@ -327,11 +318,7 @@ class SourceBuilder {
         int32_t value = std::min(static_cast<int32_t>(std::floor(share * whole)), rest);
         rest -= value;
         if (k == 3 && !(loose && random_.chance(20)) && weight[3] != 0) value += rest;
-        if (types[weights_as] == ComponentType::kUint8) {
-          weights.append(static_cast<uint8_t>(value));
-        } else {
-          weights.append(static_cast<uint16_t>(value));
-        }
+        weights.appendInteger(value);
       }
     }
     piece_.attributes.push_back(std::move(joints));

@@ -31,19 +31,9 @@ struct Candidate {
   Features features;
 };
 
-/// Letters, digits and single underscores.
+/// At most 40 characters, without an underscore at the end.
 std::string fileName(const std::string& name) {
-  std::string file;
-  for (const char c : name) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (plain)
-      file += c;
-    else if (c >= 'A' && c <= 'Z')
-      file += static_cast<char>(c - 'A' + 'a');
-    else if (!file.empty() && file.back() != '_')
-      file += '_';
-  }
-  file.resize(std::min<size_t>(file.size(), 40));
+  std::string file = slug(name).substr(0, 40);
   while (!file.empty() && file.back() == '_') file.pop_back();
   return file;
 }
@@ -65,16 +55,21 @@ Asset appendixC() {
   return asset;
 }
 
+/// Adds padding before the streams, the first of which is `streams`.
+void pad(Asset& asset, const std::string& streams, uint8_t count) {
+  HeaderFields fields(asset.payload);
+  fields.set("flags", fields.get("flags") | payload_flag::kPadded);
+  fields.insertBefore(streams, "padding bytes", {count});
+  fields.insertBefore(streams, "padding", Bytes(count, 0));
+  asset.payload = fields.payload();
+}
+
 /// Changes that must not matter.
 void addVariants(std::vector<Asset>& assets) {
   Asset padded = assets[0];
   padded.name = "padded";
   padded.shows = "Padding that nobody needs";
-  HeaderFields fields(padded.payload);
-  fields.set("flags", fields.get("flags") | payload_flag::kPadded);
-  fields.insertBefore("codes", "padding bytes", {3});
-  fields.insertBefore("codes", "padding", {0, 0, 0});
-  padded.payload = fields.payload();
+  pad(padded, "codes", 3);
   assets.push_back(padded);
   Asset later = assets[0];
   later.name = "later_minor_version";
@@ -82,6 +77,11 @@ void addVariants(std::vector<Asset>& assets) {
   later.payload[kVersionOffset] = kVersionMajor << 4 | 15;
   repairChecksum(later.payload);
   assets.push_back(later);
+}
+
+void addAsset(std::vector<Candidate>& all, Asset asset) {
+  Features features = featuresOf(asset.payload);
+  all.push_back({std::move(asset), std::move(features)});
 }
 
 /// Takes candidates until every feature was met kTimes, preferring small ones that show much.
@@ -125,24 +125,17 @@ std::vector<Candidate> makeCandidates() {
   std::vector<Candidate> all;
   std::map<std::string, uint32_t> met;
   for (Asset& asset : fixed) {
-    Features features = featuresOf(asset.payload);
-    for (const auto& [name, sections] : features) ++met[name];
-    all.push_back({std::move(asset), std::move(features)});
+    addAsset(all, std::move(asset));
+    for (const auto& [name, sections] : all.back().features) ++met[name];
   }
   std::vector<Candidate> random;
   for (uint64_t seed = 1; seed <= kCandidates; ++seed) {
     Asset asset = encodeSource(seed % 25 == 0 ? planarSource(seed) : randomSource(seed));
     if (asset.payload.size() > kAssetBytes) continue;
-    Features features = featuresOf(asset.payload);
-    random.push_back({std::move(asset), std::move(features)});
+    addAsset(random, std::move(asset));
   }
   for (Candidate& candidate : choose(std::move(random), met)) all.push_back(std::move(candidate));
   return all;
-}
-
-void addAsset(std::vector<Candidate>& all, Asset asset) {
-  Features features = featuresOf(asset.payload);
-  all.push_back({std::move(asset), std::move(features)});
 }
 
 bool decodes(const Bytes& payload) {
@@ -191,8 +184,7 @@ void addFound(std::vector<Candidate>& candidates) {
     asset.name = found.name;
     asset.shows = found.shows;
     asset.payload = payload;
-    Features features = featuresOf(asset.payload);
-    candidates.push_back({std::move(asset), std::move(features)});
+    addAsset(candidates, std::move(asset));
   }
 }
 
@@ -211,11 +203,7 @@ void addSources(std::vector<Candidate>& all) {
   Asset padded = encodeSource(blockSources()[0]);
   padded.name = "blocks_padded";
   padded.shows = "Blocks, and padding that nobody needs";
-  HeaderFields fields(padded.payload);
-  fields.set("flags", fields.get("flags") | payload_flag::kPadded);
-  fields.insertBefore("block 0.codes", "padding bytes", {5});
-  fields.insertBefore("block 0.codes", "padding", Bytes(5, 0));
-  padded.payload = fields.payload();
+  pad(padded, "block 0.codes", 5);
   addAsset(all, std::move(padded));
   addAsset(all, neverRepeated());
 }

@@ -39,7 +39,7 @@ void addFormatOption(Command& command, CommonOptions& options);
 void addVerbosityOptions(Command& command, CommonOptions& options);
 
 /// Adds -j.
-void addJobs(Command& command, uint32_t& count, const char* help);
+void addThreadCount(Command& command, uint32_t& count, const char* help);
 
 /// Adds the option for the bits of each attribute.
 void addAttributeBits(Command& command, gltf::ConvertOptions& options);

@@ -37,23 +37,23 @@ void addVerbosityOptions(Command& command, CommonOptions& options) {
   command.addFlag("-v,--verbose", options.is_verbose, "Print more");
 }
 
-void addJobs(Command& command, uint32_t& count, const char* help) {
-  command.add("-j,--jobs", "N", &count, help).limits = between(1, 1024);
+void addThreadCount(Command& command, uint32_t& count, const char* help) {
+  command.add("-j,--thread-count", "N", &count, help).limits = between(1, 1024);
 }
 
 void addAttributeBits(Command& command, gltf::ConvertOptions& options) {
   const auto add = [&](const std::string& attribute, uint8_t& bits, uint64_t low, uint64_t high) {
-    const std::string name = "--quantize-" + attribute;
+    const std::string name = "--" + attribute + "-bits";
     const std::string help =
         "Bits of " + attribute + ", 0 keeps all [" + std::to_string(bits) + "]";
     command.add(name.c_str(), "N", &bits, help).limits = {Limits::kZeroOrIntegers, low, high, 0, 0};
   };
-  add("position", options.bits.position, 1, 24);
-  add("normal", options.bits.normal, 2, 16);
-  add("texcoord", options.bits.texcoord, 1, 24);
-  add("color", options.bits.color, 1, 24);
-  add("tangent", options.bits.tangent, 2, 16);
-  add("weight", options.bits.weight, 1, 24);
+  add("position", options.position_bits, 1, 24);
+  add("normal", options.normal_bits, 2, 16);
+  add("texcoord", options.texcoord_bits, 1, 24);
+  add("color", options.color_bits, 1, 24);
+  add("tangent", options.tangent_bits, 2, 16);
+  add("weight", options.weight_bits, 1, 24);
 }
 
 void addPreference(Command& command, gltf::ConvertOptions& options) {
@@ -66,30 +66,29 @@ void addPreference(Command& command, gltf::ConvertOptions& options) {
 
 namespace {
 
-/// Adds --max-error, --max-error-relative and --lattice, which each replace --quantize-position.
+/// Adds --max-position-error and --position-lattice, which each replace --position-bits.
 void addPositionPromises(Command& command, gltf::ConvertOptions& options) {
-  const auto addError = [&](const char* name, bool is_relative, const char* help) -> Option& {
-    Option& option = command.add(name, "X", &options.max_position_error, help);
-    option.limits.kind = Limits::kAboveZero;
-    option.then = [&options, is_relative]() { options.is_error_relative = is_relative; };
-    return option;
-  };
-  addError("--max-error", false, "No position moves farther than X, in units of the model")
-      .excludes = {"--lossless", "--quantize-position", "--max-error-relative", "--lattice"};
-  addError("--max-error-relative", true, "The same, X is a fraction of the longest side")
-      .excludes = {"--lossless", "--quantize-position", "--lattice"};
+  Option& error = command.add("--max-position-error", "X", &options.max_position_error,
+                              "No position moves farther than X, in units of the model");
+  error.limits.kind = Limits::kAboveZero;
+  error.excludes = {"--lossless", "--position-bits", "--position-lattice"};
+  command
+      .addFlag("--is-error-relative", options.is_error_relative,
+               "X is a fraction of the longest side of the model")
+      .needs = "--max-position-error";
   const auto numbers = std::make_shared<std::vector<float>>();
-  Option& lattice = command.add("--lattice", "X,Y,Z,STEP", numbers.get(),
+  Option& lattice = command.add("--position-lattice", "X,Y,Z,STEP", numbers.get(),
                                 "Lattice of positions, for tiles that must fit together");
   lattice.count = 4;
   lattice.is_list = true;
-  lattice.excludes = {"--lossless", "--quantize-position"};
+  lattice.excludes = {"--lossless", "--position-bits"};
   lattice.then = [numbers, &options]() {
     Lattice given;
     std::copy_n(numbers->begin(), 3, given.origin);
     given.step = (*numbers)[3];
     if (!isValidLattice(given, 3)) {
-      throw UsageError("--lattice", "needs finite numbers, and a step that is greater than 0");
+      throw UsageError("--position-lattice",
+                       "needs finite numbers, and a step that is greater than 0");
     }
     options.position_lattice = given;
   };
@@ -100,8 +99,8 @@ void addPositionPromises(Command& command, gltf::ConvertOptions& options) {
 void addQuantization(Command& command, gltf::ConvertOptions& options) {
   addAttributeBits(command, options);
   command.addFlag("--lossless", options.lossless, "Keep every bit of every number").excludes = {
-      "--quantize-position", "--quantize-normal",  "--quantize-texcoord",
-      "--quantize-color",    "--quantize-tangent", "--quantize-weight"};
+      "--position-bits", "--normal-bits",  "--texcoord-bits",
+      "--color-bits",    "--tangent-bits", "--weight-bits"};
   addPositionPromises(command, options);
   command.addWords("--grid", options.grid,
                    {{"mesh", gltf::Grid::kMesh},
@@ -110,7 +109,7 @@ void addQuantization(Command& command, gltf::ConvertOptions& options) {
                    "What shares a lattice of positions, without cracks [mesh]");
   addPreference(command, options);
   command
-      .add("--block", "N", &options.block_triangles,
+      .add("--block-triangles", "N", &options.block_triangles,
            "Cut large surfaces into blocks of N triangles, 0 never [262144]")
       .limits = between(0, kBlocksByPreference - 1);
 }

@@ -221,14 +221,9 @@ void addKeepOrder(Command& command, gltf::ConvertOptions& options) {
       .addFlag("--drop-unused", options.drop_unused,
                "Leave out vertices that no triangle uses; not with --indices-only")
       .excludes = {"--indices-only"};
-  const auto what = std::make_shared<std::string>();
-  command
-      .addWords("--keep-order", *what, {"vertices", "triangles", "both"},
-                "Keep the order of vertices, triangles or both")
-      .then = [what, &options]() {
-    options.keep_vertex_order = *what != "triangles";
-    options.keep_triangle_order = *what != "vertices";
-  };
+  command.addFlag("--keep-vertex-order", options.keep_vertex_order, "Keep the order of vertices");
+  command.addFlag("--keep-triangle-order", options.keep_triangle_order,
+                  "Keep the order of triangles, and their first corners");
 }
 
 }  // namespace
@@ -249,7 +244,7 @@ void addConvert(Program& program) {
   command.add("--report", "FILE", &state->report, "Write all figures to this JSON file");
   state->comparison.addOptions(command);
   addFormatOption(command, state->common);
-  addJobs(command, state->convert.thread_count, "Threads to use [1]");
+  addThreadCount(command, state->convert.thread_count, "Threads to use [1]");
   command.addFlag("--force", state->is_forced, "With -o DIR: also convert what is up to date");
   addDecodedLimitOption(command, state->convert.max_decoded_bytes);
   addVerbosityOptions(command, state->common);
@@ -259,8 +254,8 @@ void addConvert(Program& program) {
       "IN and OUT are .glb or .gltf files, or - for standard input and output. A .gltf gets its\n"
       "buffer next to it (a.gltf: a.HASH.bin). Images in separate files stay separate, but move\n"
       "into a .glb. The result is decoded and compared with the source before it replaces OUT;\n"
-      "sizes and measured errors are printed. Positions are set by one of --quantize-position,\n"
-      "--max-error, --max-error-relative, --lattice and --lossless.\n"
+      "sizes and measured errors are printed. Positions are set by one of --position-bits,\n"
+      "--max-position-error, --position-lattice and --lossless.\n"
       "IN may already be compressed with Draco or meshoptimizer (version 0 of its codec; the npm\n"
       "package gltf-mcc reads version 1).\n"
       "With -o DIR every IN becomes a file of the same name in DIR. A folder IN stands for the\n"
@@ -269,10 +264,10 @@ void addConvert(Program& program) {
       "the same options and from files that have not changed since, are left alone.";
   command.examples =
       "convert model.glb small.glb\n"
-      "convert scene.gltf small.glb --quantize-position 12 --report sizes.json\n"
+      "convert scene.gltf small.glb --position-bits 12 --report sizes.json\n"
       "convert scan.glb exact.glb --lossless\n"
-      "convert part.glb small.glb --max-error 0.05\n"
-      "convert terrain.glb small.glb --keep-order both\n"
+      "convert part.glb small.glb --max-position-error 0.05\n"
+      "convert terrain.glb small.glb --keep-vertex-order --keep-triangle-order\n"
       "convert -j 4 -o small models/*.glb\n"
       "convert - - < model.glb | upload";
   command.run = [state]() { return state->run(); };

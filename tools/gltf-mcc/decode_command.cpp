@@ -18,7 +18,7 @@ namespace {
 struct DecodeCommand {
   CommonOptions common;
   InOut files;
-  gltf::FileDecodeOptions decoding;
+  gltf::DecodeOptions decoding;
   bool is_forced = false;
 
   int run() {
@@ -46,7 +46,7 @@ int DecodeCommand::runMany() const {
   options.make = [this](const std::string& file, const std::filesystem::path& to,
                         uint32_t threads_of_file, BatchResult& result) {
     gltf::DecodeReport done;
-    gltf::FileDecodeOptions of_file = decoding;
+    gltf::DecodeOptions of_file = decoding;
     of_file.thread_count = threads_of_file;
     gltf::Result outcome = gltf::decodeTo({{to, nullptr}, &temporaryFiles(), &result.files},
                                           {gltf::pathOf(file), {}}, of_file, done);
@@ -97,7 +97,7 @@ void addDecode(Program& program) {
   command.addWords("--decode-to", state->decoding.decode_to,
                    {{"floats", gltf::DecodeTo::kFloats}, {"integers", gltf::DecodeTo::kIntegers}},
                    "What quantised attributes become [floats]");
-  addJobs(command, state->decoding.thread_count, "Threads to use [1]");
+  addThreadCount(command, state->decoding.thread_count, "Threads to use [1]");
   command.addFlag("--force", state->is_forced, "With -o DIR: also decode what is up to date");
   addDecodedLimitOption(command, state->decoding.max_decoded_bytes);
   addVerbosityOptions(command, state->common);

@@ -48,14 +48,14 @@ Command& addTiles(Program& program, TilesOptions& options) {
            "Positions move by at most F of the tile's geometric error [0.0625]")
       .limits = {Limits::kReals, 0, 0, 1e-9, 1};
   addAttributeBits(command, options.convert);
-  Option& bits = command.find("--quantize-position");
+  Option& bits = command.find("--position-bits");
   bits.help = "Bits of position, 0 keeps all; replaces --error-share";
   bits.excludes = {"--error-share"};
   bits.then = [&options]() { options.has_fixed_bits = true; };
   addPreference(command, options.convert);
   command.add("--report", "FILE", &options.report, "Write all figures to this JSON file");
   addFormatOption(command, options.common);
-  addJobs(command, options.job_count, "Tiles at the same time [1]");
+  addThreadCount(command, options.job_count, "Tiles at the same time [1]");
   command.add("--part", "K/N", &options.part_text,
               "Make only the K-th of N parts; the parts of several machines make a whole");
   command.addFlag("--wait", options.waits, "Wait for other runs that write to the same folder");
@@ -83,7 +83,7 @@ Command& addTiles(Program& program, TilesOptions& options) {
   command.examples =
       "tiles city/tileset.json small-city\n"
       "tiles -j 8 terrain/tileset.json out --error-share 0.01 --report sizes.json\n"
-      "tiles city/tileset.json small-city --quantize-position 12\n"
+      "tiles city/tileset.json small-city --position-bits 12\n"
       "tiles city/tileset.json small-city --part 3/8";
   return command;
 }
@@ -112,7 +112,7 @@ Command& addCompare(Program& program, CompareOptions& options) {
       "index arrays, the least of several runs.";
   command.examples =
       "compare model.glb\n"
-      "compare --quantize-position 12 --format md a.glb b.glb";
+      "compare --position-bits 12 --format md a.glb b.glb";
   return command;
 }
 

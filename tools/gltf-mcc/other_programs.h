@@ -32,7 +32,7 @@ struct TilesOptions {
   CommonOptions common;
   gltf::ConvertOptions convert;
   double error_share = 0.0625;
-  bool has_fixed_bits = false;  ///< convert.bits.position decides, not the geometric errors
+  bool has_fixed_bits = false;  ///< convert.position_bits decides, not the geometric errors
   uint32_t job_count = 1;       ///< the results do not depend on it
   bool is_forced = false;
   tiles::Part part;           ///< of the files, which this run makes

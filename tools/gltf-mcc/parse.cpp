@@ -144,6 +144,7 @@ void addOptions(CLI::App& app, const Command& command) {
     for (const std::string& other : option.excludes) {
       app.get_option(option.names)->excludes(app.get_option(other));
     }
+    if (!option.needs.empty()) app.get_option(option.names)->needs(app.get_option(option.needs));
   }
 }
 
@@ -161,8 +162,8 @@ void findWrongWord(const CLI::App& app, Parsed& parsed) {
   }
 }
 
-/// Returns "convert: IN is missing" or "--jobs: N is missing" in place of CLI11's texts about what
-/// a command or an option needs; empty if the failure is another one.
+/// Returns "convert: IN is missing" or "--thread-count: N is missing" in place of CLI11's texts
+/// about what a command or an option needs; empty if the failure is another one.
 std::string missingText(const CLI::App& app, const Command& command,
                         const CLI::ParseError& failure) {
   const bool is_argument = dynamic_cast<const CLI::RequiredError*>(&failure) != nullptr;

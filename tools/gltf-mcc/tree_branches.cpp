@@ -11,8 +11,8 @@ struct Children {
   std::vector<uint32_t> first;  ///< where each vertex's edges start in `edges`; one entry more
   std::vector<uint32_t> edges;
 
-  explicit Children(const gltf::McTree& tree) : first(tree.positions.size() / 3 + 1, 0) {
-    for (const gltf::McTree::Edge& edge : tree.edges) ++first[edge.parent + 1];
+  explicit Children(const McTree& tree) : first(tree.positions.size() / 3 + 1, 0) {
+    for (const McTree::Edge& edge : tree.edges) ++first[edge.parent + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
     edges.resize(tree.edges.size());
     std::vector<uint32_t> fill(first.begin(), first.end() - 1);
@@ -22,12 +22,12 @@ struct Children {
 
 class Brancher {
  public:
-  explicit Brancher(const gltf::McTree& tree)
+  explicit Brancher(const McTree& tree)
       : tree_(tree), children_(tree), is_done_(tree.edges.size(), false) {}
 
   std::vector<Branch> run() {
     std::vector<bool> is_child(children_.first.size(), false);
-    for (const gltf::McTree::Edge& edge : tree_.edges) is_child[edge.child] = true;
+    for (const McTree::Edge& edge : tree_.edges) is_child[edge.child] = true;
     // Start at the roots; what is left after that can be reached only through cycles.
     for (const bool from_roots : {true, false}) {
       for (uint32_t e = 0; e < tree_.edges.size(); ++e) {
@@ -77,7 +77,7 @@ class Brancher {
     uint32_t vertex;
     uint32_t depth;
   };
-  const gltf::McTree& tree_;
+  const McTree& tree_;
   const Children children_;
   std::vector<bool> is_done_;
   std::vector<Fork> forks_;
@@ -86,6 +86,6 @@ class Brancher {
 
 }  // namespace
 
-std::vector<Branch> branchesOf(const gltf::McTree& tree) { return Brancher(tree).run(); }
+std::vector<Branch> branchesOf(const McTree& tree) { return Brancher(tree).run(); }
 
 }  // namespace mcc::tool

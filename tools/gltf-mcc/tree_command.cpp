@@ -39,13 +39,13 @@ int drawFile(const TreeOptions& options) {
 #if defined(MCC_HAS_FOREIGN)
   decoders = foreign::foreignDecoders();
 #endif
-  gltf::McTree tree;
+  McTree tree;
   StreamSource source;
   gltf::Result result = source.open(input);
   std::string svg;
   if (result.ok()) {
     const WorkProgress progress(options.common.is_quiet, "drawing " + input);
-    result = gltf::mcTree(source.source(), options.mesh, options.primitive, decoders, tree);
+    result = mcTree(source.source(), options.mesh, options.primitive, decoders, tree);
     if (result.ok()) svg = drawTree(tree, drawing);
   }
   if (!result.ok()) return reportFailure(result, input, "");

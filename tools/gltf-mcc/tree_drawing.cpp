@@ -23,7 +23,7 @@ constexpr uint32_t kTrunkColors = 48;
 
 /// Returns for every vertex whether it lies on a visible triangle, or at the same place as one that
 /// does.
-std::vector<bool> onSeenTriangles(const gltf::McTree& tree, const DepthBuffer& depth) {
+std::vector<bool> onSeenTriangles(const McTree& tree, const DepthBuffer& depth) {
   const size_t count = tree.positions.size() / 3;
   std::vector<bool> is_on(count, false);
   for (size_t i = 0; i < tree.indices.size(); ++i) {
@@ -49,7 +49,7 @@ std::vector<bool> onSeenTriangles(const gltf::McTree& tree, const DepthBuffer& d
 
 class Drawing {
  public:
-  Drawing(const gltf::McTree& tree, const DrawingOptions& options)
+  Drawing(const McTree& tree, const DrawingOptions& options)
       : tree_(tree),
         options_(options),
         width_(options.width),
@@ -78,7 +78,7 @@ class Drawing {
   bool isSeen(uint32_t vertex) const;
   bool hasRoomForMarkers() const { return line_ > 0.0016 * width_; }
 
-  const gltf::McTree& tree_;
+  const McTree& tree_;
   const DrawingOptions& options_;
   const double width_;
   const std::vector<Branch> branches_;
@@ -92,7 +92,7 @@ class Drawing {
 double Drawing::lineWidth() const {
   double sum = 0;
   uint64_t count = 0;
-  for (const gltf::McTree::Edge& edge : tree_.edges) {
+  for (const McTree::Edge& edge : tree_.edges) {
     const PagePoint& a = point(edge.parent);
     const PagePoint& b = point(edge.child);
     if (!a.is_finite || !b.is_finite) continue;
@@ -279,7 +279,7 @@ std::string Drawing::text() const {
 
 }  // namespace
 
-std::string drawTree(const gltf::McTree& tree, const DrawingOptions& options) {
+std::string drawTree(const McTree& tree, const DrawingOptions& options) {
   return Drawing(tree, options).text();
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mcc/files.h"
+#include "tree_of_edges.h"
 
 namespace mcc::tool {
 
@@ -21,7 +21,7 @@ struct Branch {
 /// Splits a tree into branches. Where it forks, the branch continues with the digon that waited,
 /// whose edge comes last; the others become branches of their own. Edges that close a cycle, as
 /// handles do, are branches of one edge.
-std::vector<Branch> branchesOf(const gltf::McTree& tree);
+std::vector<Branch> branchesOf(const McTree& tree);
 
 struct DrawingOptions {
   double view[3] = {0.45, 0.35, 1};  ///< from the model to the eye; +Y is up
@@ -31,7 +31,7 @@ struct DrawingOptions {
 
 /// Returns an SVG that shows the surface from far away, with the visible part of the tree on it.
 /// Positions that are not finite are left out. The same tree gives the same text.
-std::string drawTree(const gltf::McTree& tree, const DrawingOptions& options);
+std::string drawTree(const McTree& tree, const DrawingOptions& options);
 
 }  // namespace mcc::tool
 

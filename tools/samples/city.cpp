@@ -7,6 +7,7 @@
 
 #include "city_pictures.h"
 #include "city_tiles.h"
+#include "support/tile_builder.h"
 
 namespace mcc::samples {
 namespace {
@@ -291,7 +292,7 @@ class CityWriter {
     }
     bounds.add(boundsOfTrees(district.trees));
     const Bytes trees = makeI3dm(makeTree(addBroadleaf), district.trees, kTreeSeed + 1);
-    store("town/" + stem + ".cmpt", makeCmpt(std::vector<Bytes>{b3dm, trees}));
+    store("town/" + stem + ".cmpt", test::makeCmpt({b3dm, trees}));
     return Json::array({{{"uri", stem + ".cmpt"}}});
   }
 

@@ -5,30 +5,22 @@
 #include <bit>
 
 #include "city_pictures.h"
+#include "support/tile_builder.h"
 
 namespace mcc::samples {
 namespace {
 
-void putNumber(Bytes& to, uint64_t value, uint32_t width = 4) {
-  for (uint32_t k = 0; k < width; ++k) to.push_back(static_cast<uint8_t>(value >> (8 * k)));
-}
+using test::append;
+using test::appendNumber;
+using test::appendText;
+using test::makeModelTile;
+using test::paddedJson;
+using test::padTo8;
+using test::Tables;
 
 void putFloat(Bytes& to, double value) {
-  putNumber(to, std::bit_cast<uint32_t>(static_cast<float>(value)));
+  appendNumber(to, std::bit_cast<uint32_t>(static_cast<float>(value)));
 }
-
-void putText(Bytes& to, const std::string& text) { to.insert(to.end(), text.begin(), text.end()); }
-
-void append(Bytes& to, const Bytes& more) { to.insert(to.end(), more.begin(), more.end()); }
-
-/// Returns JSON with spaces, so that what follows it after `before` bytes is at a multiple of 8.
-std::string paddedText(const Json& json, size_t before) {
-  std::string text = json.dump();
-  while ((before + text.size()) % 8 != 0) text += ' ';
-  return text;
-}
-
-void pad(Bytes& bytes) { bytes.resize((bytes.size() + 7) / 8 * 8, 0); }
 
 Json numbersOf(const Vec3& v) { return {v.x, v.y, v.z}; }
 
@@ -44,12 +36,12 @@ uint32_t addSurfaceMaterial(GlbBuilder& glb, Surface surface, const std::string&
   uint32_t texture = 0;
   if (picture_folder.empty()) {
     texture = glb.addTexture(picture.name, picture.png);
-    glb.json()["samplers"][0]["wrapS"] = kRepeat;
-    glb.json()["samplers"][0]["wrapT"] = kRepeat;
+    glb.json["samplers"][0]["wrapS"] = kRepeat;
+    glb.json["samplers"][0]["wrapT"] = kRepeat;
   } else {
     texture = glb.addExternalTexture(picture.name, picture_folder + picture.name + ".png");
   }
-  glb.json()["materials"][material]["pbrMetallicRoughness"]["baseColorTexture"] = {
+  glb.json["materials"][material]["pbrMetallicRoughness"]["baseColorTexture"] = {
       {"index", texture}};
   return material;
 }
@@ -59,7 +51,7 @@ Json addPart(GlbBuilder& glb, const SurfacePart& part, uint32_t material,
   Json attributes;
   attributes["POSITION"] = glb.addFloats(part.positions, 3);
   attributes["NORMAL"] = glb.addFloats(part.normals, 3);
-  if (glb.json()["materials"][material]["pbrMetallicRoughness"].contains("baseColorTexture")) {
+  if (glb.json["materials"][material]["pbrMetallicRoughness"].contains("baseColorTexture")) {
     attributes["TEXCOORD_0"] = glb.addFloats(part.texcoords, 2);
   }
   attributes["COLOR_0"] = glb.addIntegers(part.colors, 4, ComponentType::kUint8, true);
@@ -87,19 +79,17 @@ Json schemaOfHouses() {
             {"floors", {{"type", "SCALAR"}, {"componentType", "UINT8"}, {"required", true}}}}}}}}}};
 }
 
-void useExtension(GlbBuilder& glb, const char* name) {
-  glb.json()["extensionsUsed"].push_back(name);
-}
+void useExtension(GlbBuilder& glb, const char* name) { glb.json["extensionsUsed"].push_back(name); }
 
 void addPropertyTable(GlbBuilder& glb, std::span<const Feature> features) {
   Bytes names;
   Bytes offsets;
   Bytes heights;
   Bytes floors;
-  putNumber(offsets, 0);
+  appendNumber(offsets, 0);
   for (const Feature& feature : features) {
-    putText(names, feature.name);
-    putNumber(offsets, names.size());
+    appendText(names, feature.name);
+    appendNumber(offsets, names.size());
     putFloat(heights, feature.height_m);
     floors.push_back(static_cast<uint8_t>(feature.floor_count));
   }
@@ -114,8 +104,8 @@ void addPropertyTable(GlbBuilder& glb, std::span<const Feature> features) {
                       {"class", "building"},
                       {"count", features.size()},
                       {"properties", properties}};
-  glb.json()["extensions"]["EXT_structural_metadata"] = {{"schema", schemaOfHouses()},
-                                                         {"propertyTables", Json::array({table})}};
+  glb.json["extensions"]["EXT_structural_metadata"] = {{"schema", schemaOfHouses()},
+                                                       {"propertyTables", Json::array({table})}};
 }
 
 /// Adds the edges of the faces, as CESIUM_primitive_outline wants them: pairs of vertices.
@@ -195,38 +185,6 @@ class TerrainMesh {
 
 // ---- Containers ---------------------------------------------------------------------------------
 
-struct Tables {
-  Json features;
-  Bytes feature_binary;
-  Json batches;
-  Bytes batch_binary;
-};
-
-/// A b3dm or, with `gltf_format`, an i3dm.
-Bytes makeModelTile(const char* magic, const Tables& tables, const Bytes& glb, bool gltf_format) {
-  const std::string features = paddedText(tables.features, gltf_format ? 32 : 28);
-  const std::string batches = paddedText(tables.batches, 0);
-  Bytes tile;
-  putText(tile, magic);
-  putNumber(tile, 1);
-  putNumber(tile, 0);  // its length, which is set below
-  putNumber(tile, features.size());
-  putNumber(tile, tables.feature_binary.size());
-  putNumber(tile, batches.size());
-  putNumber(tile, tables.batch_binary.size());
-  if (gltf_format) putNumber(tile, 1);  // the glTF is embedded
-  putText(tile, features);
-  append(tile, tables.feature_binary);
-  putText(tile, batches);
-  append(tile, tables.batch_binary);
-  append(tile, glb);
-  pad(tile);
-  Bytes length;
-  putNumber(length, tile.size());
-  std::copy(length.begin(), length.end(), tile.begin() + 8);
-  return tile;
-}
-
 /// Appends a bitstream to the binary part of a subtree, or says that all its bits are equal.
 Json addAvailability(const std::vector<bool>& bits, Json& views, Bytes& binary) {
   const auto count = static_cast<size_t>(std::count(bits.begin(), bits.end(), true));
@@ -237,7 +195,7 @@ Json addAvailability(const std::vector<bool>& bits, Json& views, Bytes& binary) 
   }
   views.push_back({{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}});
   append(binary, bytes);
-  pad(binary);
+  padTo8(binary);
   return {{"bitstream", views.size() - 1}, {"availableCount", count}};
 }
 
@@ -278,7 +236,7 @@ Bytes makeModel(const CityMesh& mesh, const ModelOptions& options) {
     node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
         glb.addPlainFloats(places, 3);
     useExtension(glb, "EXT_mesh_gpu_instancing");
-    glb.json()["extensionsRequired"].push_back("EXT_mesh_gpu_instancing");
+    glb.json["extensionsRequired"].push_back("EXT_mesh_gpu_instancing");
   }
   glb.addNode(node);
   return glb.finish();
@@ -307,9 +265,9 @@ Bytes makeTerrain(const CityPlan& plan, const TerrainTile& tile, const std::stri
   const uint32_t material = glb.addMaterial("ground", 1, 1, 1, 0, 1);
   const uint32_t texture = glb.addExternalTexture("ground", picture_folder + "ground.png");
   constexpr uint32_t kClampToEdge = 33071;
-  glb.json()["samplers"][0]["wrapS"] = kClampToEdge;
-  glb.json()["samplers"][0]["wrapT"] = kClampToEdge;
-  glb.json()["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", texture}};
+  glb.json["samplers"][0]["wrapS"] = kClampToEdge;
+  glb.json["samplers"][0]["wrapT"] = kClampToEdge;
+  glb.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", texture}};
   Json attributes = addAttributes(glb, terrain.mesh);
   if (plan.size().has_ground_ids) {
     attributes["_FEATURE_ID_0"] = glb.addIntegers(terrain.ids, 1, ComponentType::kUint16, false);
@@ -327,7 +285,8 @@ Bytes makeTerrain(const CityPlan& plan, const TerrainTile& tile, const std::stri
 
 Bytes makeB3dm(const Bytes& glb, std::span<const Feature> features, const Vec3& center) {
   Tables tables;
-  tables.features = {{"BATCH_LENGTH", features.size()}, {"RTC_CENTER", numbersOf(center)}};
+  const Json table = {{"BATCH_LENGTH", features.size()}, {"RTC_CENTER", numbersOf(center)}};
+  tables.feature_json = paddedJson(table.dump(), 28);
   Json names = Json::array();
   Bytes floors;
   for (const Feature& feature : features) {
@@ -335,15 +294,17 @@ Bytes makeB3dm(const Bytes& glb, std::span<const Feature> features, const Vec3& 
     putFloat(tables.batch_binary, feature.height_m);
     floors.push_back(static_cast<uint8_t>(feature.floor_count));
   }
-  tables.batches = {{"name", names},
-                    {"height", {{"byteOffset", 0}, {"componentType", "FLOAT"}, {"type", "SCALAR"}}},
-                    {"floors",
-                     {{"byteOffset", 4 * features.size()},
-                      {"componentType", "UNSIGNED_BYTE"},
-                      {"type", "SCALAR"}}}};
+  const Json batches = {
+      {"name", names},
+      {"height", {{"byteOffset", 0}, {"componentType", "FLOAT"}, {"type", "SCALAR"}}},
+      {"floors",
+       {{"byteOffset", 4 * features.size()},
+        {"componentType", "UNSIGNED_BYTE"},
+        {"type", "SCALAR"}}}};
+  tables.batch_json = paddedJson(batches.dump(), 0);
   append(tables.batch_binary, floors);
-  pad(tables.batch_binary);
-  return makeModelTile("b3dm", tables, glb, false);
+  padTo8(tables.batch_binary);
+  return makeModelTile("b3dm", tables, glb);
 }
 
 Bytes makeI3dm(const Bytes& glb, std::span<const Vec3> places, uint64_t seed) {
@@ -357,27 +318,17 @@ Bytes makeI3dm(const Bytes& glb, std::span<const Vec3> places, uint64_t seed) {
     putFloat(scales, scale);
     putFloat(tables.batch_binary, scale * kModelHeight);
   }
-  tables.features = {{"INSTANCES_LENGTH", places.size()},
-                     {"POSITION", {{"byteOffset", 0}}},
-                     {"SCALE", {{"byteOffset", tables.feature_binary.size()}}}};
+  const Json table = {{"INSTANCES_LENGTH", places.size()},
+                      {"POSITION", {{"byteOffset", 0}}},
+                      {"SCALE", {{"byteOffset", tables.feature_binary.size()}}}};
+  tables.feature_json = paddedJson(table.dump(), 32);
   append(tables.feature_binary, scales);
-  pad(tables.feature_binary);
-  tables.batches = {
+  padTo8(tables.feature_binary);
+  const Json batches = {
       {"height", {{"byteOffset", 0}, {"componentType", "FLOAT"}, {"type", "SCALAR"}}}};
-  pad(tables.batch_binary);
-  return makeModelTile("i3dm", tables, glb, true);
-}
-
-Bytes makeCmpt(std::span<const Bytes> tiles) {
-  size_t size = 16;
-  for (const Bytes& inner : tiles) size += inner.size();
-  Bytes tile;
-  putText(tile, "cmpt");
-  putNumber(tile, 1);
-  putNumber(tile, size);
-  putNumber(tile, tiles.size());
-  for (const Bytes& inner : tiles) append(tile, inner);
-  return tile;
+  tables.batch_json = paddedJson(batches.dump(), 0);
+  padTo8(tables.batch_binary);
+  return makeModelTile("i3dm", tables, glb);
 }
 
 Bytes makeSubtree(const CityPlan& plan, const TerrainTile& root) {
@@ -399,15 +350,7 @@ Bytes makeSubtree(const CityPlan& plan, const TerrainTile& root) {
     json["buffers"] = Json::array({{{"byteLength", binary.size()}}});
     json["bufferViews"] = views;
   }
-  const std::string text = paddedText(json, 0);
-  Bytes file;
-  putText(file, "subt");
-  putNumber(file, 1);
-  putNumber(file, text.size(), 8);
-  putNumber(file, binary.size(), 8);
-  putText(file, text);
-  append(file, binary);
-  return file;
+  return test::makeSubtree(paddedJson(json.dump(), 0), binary);
 }
 
 }  // namespace mcc::samples

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Files of the city's tiles: GLB with and without property tables, b3dm, i3dm, cmpt, subtrees.
+// Files of the city's tiles: GLB with and without property tables, b3dm, i3dm, subtrees.
 #ifndef MCC_TOOLS_SAMPLES_CITY_TILES_H_
 #define MCC_TOOLS_SAMPLES_CITY_TILES_H_
 
@@ -48,7 +48,6 @@ bool hasTerrain(const CityPlan& plan, const TerrainTile& tile);
 Bytes makeB3dm(const Bytes& glb, std::span<const Feature> features, const Vec3& center);
 /// An i3dm with an instance at each place, of random sizes.
 Bytes makeI3dm(const Bytes& glb, std::span<const Vec3> places, uint64_t seed);
-Bytes makeCmpt(std::span<const Bytes> tiles);
 
 /// The subtree whose root is a tile of the terrain.
 Bytes makeSubtree(const CityPlan& plan, const TerrainTile& root);

@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Builds one GLB in memory: JSON plus a binary chunk that accessors and images are appended to.
+// Builds one GLB with what samples show beside meshes: materials, pictures, sparse and integer
+// accessors, scenes with names.
 #ifndef MCC_TOOLS_SAMPLES_GLB_BUILDER_H_
 #define MCC_TOOLS_SAMPLES_GLB_BUILDER_H_
 
@@ -9,26 +10,22 @@
 #include <string>
 #include <vector>
 
-#include "json/json.h"
-#include "mcc/types.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::samples {
 
 using gltf::Json;
 
-class GlbBuilder {
+class GlbBuilder : public gltf::test::Builder {
  public:
   /// `title` names the scene and its first node.
   explicit GlbBuilder(const std::string& title);
 
-  /// The document. Members may be added and changed until finish().
-  Json& json() { return json_; }
-
   /// Adds vertex attributes: `components` (1..4) floats per element. Writes min and max.
-  uint32_t addFloats(std::span<const float> values, uint32_t components);
+  uint32_t addFloats(const std::vector<float>& values, uint32_t components);
   /// Like addFloats(), for anything that is not a vertex attribute (animation; inverse bind
   /// matrices, with 16 components).
-  uint32_t addPlainFloats(std::span<const float> values, uint32_t components);
+  uint32_t addPlainFloats(const std::vector<float>& values, uint32_t components);
   /// Adds integer vertex attributes. Elements are padded to a multiple of four bytes, as glTF
   /// requires. `values` holds components * count numbers in the range of `type`.
   uint32_t addIntegers(std::span<const int32_t> values, uint32_t components, ComponentType type,
@@ -38,19 +35,19 @@ class GlbBuilder {
   /// Adds a VEC3 float accessor that takes the elements of `base`, and replaces those at `where`
   /// (ascending) by `values`.
   uint32_t addSparseFloats(uint32_t base_accessor, std::span<const float> base,
-                           std::span<const uint32_t> where, std::span<const float> values);
+                           std::span<const uint32_t> where, const std::vector<float>& values);
   /// Adds a VEC3 float accessor of zeros, and replaces those at `where` (ascending) by `values`.
   uint32_t addSparseZeros(size_t count, std::span<const uint32_t> where = {},
-                          std::span<const float> values = {});
+                          const std::vector<float>& values = {});
   /// Adds a material; colour components are 0..1, linear.
   uint32_t addMaterial(const std::string& name, float red, float green, float blue, float metallic,
                        float roughness, bool double_sided = false);
   /// Embeds a PNG and adds a texture that does not repeat.
-  uint32_t addTexture(const std::string& name, std::span<const uint8_t> png);
+  uint32_t addTexture(const std::string& name, const std::vector<uint8_t>& png);
   /// Adds a texture that repeats, of an image file at `uri`.
   uint32_t addExternalTexture(const std::string& name, const std::string& uri);
   /// Adds bytes at a multiple of eight of the buffer, and returns the buffer view.
-  uint32_t addBytes(std::span<const uint8_t> bytes);
+  uint32_t addBytes(const std::vector<uint8_t>& bytes);
   /// Like addIndices(), for indices that are not those of triangles.
   uint32_t addPlainIndices(std::span<const uint32_t> indices);
   /// Adds a mesh and returns its index.
@@ -61,14 +58,8 @@ class GlbBuilder {
   std::vector<uint8_t> finish() const;
 
  private:
-  uint32_t addIndices(std::span<const uint32_t> indices, uint32_t target);
-  Json addReplacements(std::span<const uint32_t> where, std::span<const float> values);
-  uint32_t addView(std::span<const uint8_t> bytes, uint32_t target, uint32_t stride_bytes);
-  uint32_t addAccessor(uint32_t view, uint32_t component_type, size_t count, const char* type);
-  uint32_t push(const char* array, Json element);
-
-  Json json_;
-  std::vector<uint8_t> binary_;
+  uint32_t addIndices(std::span<const uint32_t> indices, int target);
+  Json addReplacements(std::span<const uint32_t> where, const std::vector<float>& values);
 };
 
 }  // namespace mcc::samples

@@ -62,7 +62,7 @@ int run(const std::filesystem::path& folder, std::span<const Model> models) {
       std::cerr << "generate-samples: cannot write " << path.string() << '\n';
       return 1;
     }
-    const Counts counts = countOf(glb.json());
+    const Counts counts = countOf(glb.json);
     std::cout << "| `" << model.file << "` | " << model.shows << " | " << counts.vertices << " | "
               << counts.triangles << " | " << bytes.size() << " |\n";
   }

@@ -96,7 +96,7 @@ Json addPrimitive(GlbBuilder& glb, const TestMesh& mesh, uint32_t material) {
 }
 
 void addChannel(GlbBuilder& glb, uint32_t times, uint32_t values, uint32_t node, const char* path) {
-  Json& json = glb.json();
+  Json& json = glb.json;
   if (!json.contains("animations")) {
     json["animations"] = Json::array(
         {Json{{"name", "move"}, {"channels", Json::array()}, {"samplers", Json::array()}}});

@@ -3,11 +3,11 @@
  * @file
  * C API of the reader, the writer and the glTF layer, for C99 and for other languages.
  *
- * - Functions return an mcc_status; no C++ exception leaves them. An argument that can be seen to be
- *   wrong gives MCC_ERROR_BAD_ARGUMENT: null for a pointer that must not be null, a number that is
- *   no enumerator, a flag that is neither 0 nor 1, a count or stride that leads beyond all memory,
- *   one function of an allocator without the other. Whether memory is there, and is as large as the
- *   caller says, cannot be seen.
+ * - Functions return an mcc_status; no C++ exception leaves them. An argument that can be seen
+ *   to be wrong gives MCC_ERROR_BAD_ARGUMENT: null for a pointer that must not be null, a number
+ *   that is no enumerator, a flag that is neither 0 nor 1, a count or stride that leads beyond all
+ *   memory, one function of an allocator without the other. Whether memory is there, and is as
+ *   large as the caller says, cannot be seen.
  * - Objects (mcc_payload, mcc_encoding, mcc_document) are created by one function and released by
  *   their own release function, which accepts null. They may move between threads, but several
  *   threads may use one at the same time only to read it.
@@ -195,8 +195,8 @@ MCC_API void mcc_payload_close(mcc_payload* payload);
  * Counts of one piece: a set of wedges (glTF vertices) with their attributes and triangle lists.
  */
 typedef struct mcc_piece_info {
-  size_t struct_bytes;      /**< sizeof(mcc_piece_info), set by the caller */
-  uint32_t wedge_count;     /**< accessor.count of every attribute */
+  size_t struct_bytes;  /**< sizeof(mcc_piece_info), set by the caller */
+  uint32_t wedge_count; /**< accessor.count of every attribute */
   /** before stitching: a position at a cut, or at the borders of blocks, counts repeatedly */
   uint32_t vertex_count;
   uint32_t attribute_count; /**< 0: the payload has only the triangles */
@@ -477,11 +477,14 @@ MCC_API void mcc_convert_options_init(mcc_convert_options* options, size_t struc
 MCC_API mcc_status mcc_convert_glb(const void* glb, size_t byte_count,
                                    const mcc_convert_options* options, mcc_document** document);
 
+/** What quantised attributes become: integers need KHR_mesh_quantization. */
+enum { MCC_DECODE_TO_FLOATS = 0, MCC_DECODE_TO_INTEGERS = 1 };
+
 /** Options of mcc_decode_glb(). */
 typedef struct mcc_decode_glb_options {
   size_t struct_bytes;
-  uint32_t decode_to_integers; /**< 1: quantised attributes stay integers (KHR_mesh_quantization) */
-  uint32_t thread_count;       /**< the result does not depend on it */
+  uint32_t decode_to;    /**< MCC_DECODE_TO_… */
+  uint32_t thread_count; /**< the result does not depend on it */
   /**
    * A GLB that asks for more bytes of decoded geometry is refused before memory is taken. 0, the
    * default, allows 1024 bytes for each byte of the GLB, but at least 256 MiB and at most 4 GiB.

@@ -65,10 +65,10 @@ MCC_API Result convertFile(const std::filesystem::path& source, const std::files
 /// Like decodeGlb(), for files, which are treated as by convert(). Inverse: convert().
 /// Tests: tests/gltf/, tests/cli/.
 MCC_API Result decode(const Source& source, const Sink& sink, DecodeReport& report,
-                      const FileDecodeOptions& options = {}, FilesInUse* files = nullptr);
+                      const DecodeOptions& options = {}, FilesInUse* files = nullptr);
 /// The same, from file to file.
 MCC_API Result decodeFile(const std::filesystem::path& source, const std::filesystem::path& output,
-                          DecodeReport& report, const FileDecodeOptions& options = {});
+                          DecodeReport& report, const DecodeOptions& options = {});
 
 /// Like inspectGlb(), for a file.
 MCC_API Result inspectFile(const std::filesystem::path& source, bool count_codes,
@@ -77,26 +77,6 @@ MCC_API Result inspectFile(const std::filesystem::path& source, bool count_codes
 /// Like validateGlb(), for a file.
 MCC_API Result validate(const Source& source, const ValidateOptions& options,
                         ValidationReport& report);
-
-/// The tree of the edges along which a surface was contracted.
-struct McTree {
-  /// One contracted edge. `parent` is the mc-vertex, or was contracted before `child`.
-  struct Edge {
-    uint32_t parent = 0;
-    uint32_t child = 0;
-  };
-  std::vector<float> positions;   ///< 3 per vertex
-  std::vector<uint32_t> indices;  ///< 3 per triangle
-  std::vector<Edge> edges;        ///< in the order of the contractions, without those to dummies
-  bool is_of_payload = false;     ///< false: the source was compressed in memory to get a tree
-};
-
-/// Returns the mc-tree of a primitive. Where the primitive is compressed, this is the tree of the
-/// payload's piece, with all triangles of that piece. Otherwise the primitive is compressed in
-/// memory as convert() would. Errors: there is no such primitive; it has no triangles, or cannot be
-/// read. Safe for untrusted input. Deterministic. Tests: tests/gltf/tree_test.cpp.
-MCC_API Result mcTree(const Source& source, uint32_t mesh, uint32_t primitive,
-                      const ForeignDecoders& decoders, McTree& tree);
 
 }  // namespace mcc::gltf
 

@@ -34,12 +34,12 @@ enum class Grid : uint8_t {
 /// Bits per component of float attributes; 0 keeps every bit. Integer attributes, joints and
 /// custom attributes are always exact.
 struct QuantizationBits {
-  uint8_t position = 14;  ///< 0..24; also the lattice of POSITION morph deltas
-  uint8_t normal = 10;    ///< 0 or 2..16, octahedral
-  uint8_t texcoord = 12;  ///< 0..24
-  uint8_t color = 8;      ///< 0..24
-  uint8_t tangent = 12;   ///< 0 or 2..16
-  uint8_t weight = 12;    ///< 0..24
+  uint8_t position_bits = 14;  ///< 0..24; also the lattice of POSITION morph deltas
+  uint8_t normal_bits = 10;    ///< 0 or 2..16, octahedral
+  uint8_t texcoord_bits = 12;  ///< 0..24
+  uint8_t color_bits = 8;      ///< 0..24
+  uint8_t tangent_bits = 12;   ///< 0 or 2..16
+  uint8_t weight_bits = 12;    ///< 0..24
 };
 
 /// A buffer view compressed by EXT_meshopt_compression or KHR_meshopt_compression, as its extension
@@ -84,18 +84,17 @@ struct ForeignDecoders {
 };
 
 /// How convertGlb() compresses.
-struct ConvertOptions {
-  QuantizationBits bits;
-  bool lossless = false;  ///< every float keeps every bit; `bits` is ignored
+struct ConvertOptions : QuantizationBits {
+  bool lossless = false;  ///< every float keeps every bit; all bits are ignored
   /// When not 0: no decoded POSITION, and no POSITION delta of a morph target, is farther from its
-  /// source than this distance in the coordinates of the mesh; `bits.position` is ignored. The
+  /// source than this distance in the coordinates of the mesh; `position_bits` is ignored. The
   /// written file is checked for it.
   double max_position_error = 0;
   /// max_position_error is a fraction of the largest side of the bounding box of all primitives
   /// that share the lattice.
   bool is_error_relative = false;
   /// When set: the lattice of every float POSITION, so that tiles converted separately fit
-  /// together; `grid`, `bits.position` and max_position_error are ignored.
+  /// together; `grid`, `position_bits` and max_position_error are ignored.
   std::optional<Lattice> position_lattice;
   /// Compresses only the triangles. Attributes stay accessors and keep every bit, in the order of
   /// the payload. Where something else refers to them they stay untouched, and the payload holds
@@ -231,7 +230,7 @@ enum class DecodeTo : uint8_t {
 };
 
 /// How decodeGlb() decodes.
-struct FileDecodeOptions {
+struct DecodeOptions {
   DecodeTo decode_to = DecodeTo::kFloats;
   uint32_t thread_count = 1;  ///< the result does not depend on it
   /// How much the file may decode to, see decodedLimit(); 0: the default. Checked before memory is
@@ -281,8 +280,6 @@ struct InspectPiece {
   uint32_t part_count = 0;
   SurfaceCoding surface = SurfaceCoding::kManifold;
   std::vector<AttributeInfo> attributes;
-  std::vector<std::string>
-      attribute_names;                    ///< as in the JSON; "(unused)" when no primitive names it
   std::vector<InspectAttribute> details;  ///< one for each of `attributes`
   std::vector<InspectBlock> blocks;       ///< empty: coded as a whole
   std::string whole_because;  ///< why a large piece is coded as a whole, as far as a file shows it
@@ -374,7 +371,7 @@ MCC_API Result convertGlb(std::span<const uint8_t> source, const ConvertOptions&
 /// than options.max_decoded_bytes is refused before memory is taken. Inverse: convertGlb(). Tests:
 /// tests/gltf/, tests/cli/.
 MCC_API Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
-                         DecodeReport& report, const FileDecodeOptions& options = {});
+                         DecodeReport& report, const DecodeOptions& options = {});
 
 /// Lists the payloads of a document. With `count_codes` the payloads are also decoded, to count
 /// their codes and the bits of their streams. Safe for untrusted input: decoding is bounded by the

@@ -103,7 +103,7 @@ class ConvertOptions(ctypes.Structure):
 
 
 class DecodeGlbOptions(ctypes.Structure):
-    _fields_ = [("struct_bytes", c_size_t), ("decode_to_integers", c_uint32), ("thread_count", c_uint32),
+    _fields_ = [("struct_bytes", c_size_t), ("decode_to", c_uint32), ("thread_count", c_uint32),
                 ("max_decoded_bytes", c_uint64)]
 
 

@@ -14,7 +14,8 @@ from .errors import check, naming
 Source = Union[bytes, bytearray, memoryview, str, "os.PathLike[str]"]
 
 PREFERENCES = ("balanced", "size", "speed")
-_GRIDS = ("mesh", "scene", "primitive")
+GRIDS = ("mesh", "scene", "primitive")
+DECODE_TO = ("floats", "integers")
 
 
 def choice(value: str, names: Tuple[str, ...], option: str) -> int:
@@ -70,7 +71,7 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
         if value is not None:
             setattr(options, name, unsigned(value, name))
     options.lossless = lossless
-    options.grid = choice(grid, _GRIDS, "grid")
+    options.grid = choice(grid, GRIDS, "grid")
     options.max_position_error = max_position_error
     options.is_error_relative = is_error_relative
     if position_lattice is not None:
@@ -88,14 +89,14 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
         glb, len(glb), ctypes.byref(options), document))
 
 
-def decode(source: Source, *, to_integers: bool = False, thread_count: int = 1, max_decoded_bytes: int = 0) -> bytes:
+def decode(source: Source, *, decode_to: str = "floats", thread_count: int = 1, max_decoded_bytes: int = 0) -> bytes:
     """Turns the compressed primitives of a GLB into ordinary accessors again and returns the GLB.
 
     Safe for untrusted input.
 
     Args:
         source: the bytes of a GLB, or the path of a .glb file
-        to_integers: quantised attributes stay integers (KHR_mesh_quantization)
+        decode_to: what quantised attributes become, "floats" or "integers" (KHR_mesh_quantization)
         thread_count: how many threads to use; the result does not depend on it
         max_decoded_bytes: a GLB that asks for more is refused before memory is taken; 0 allows 1024 bytes for
             each byte of the GLB, but at least 256 MiB and at most 4 GiB
@@ -107,7 +108,7 @@ def decode(source: Source, *, to_integers: bool = False, thread_count: int = 1, 
     """
     options = _library.DecodeGlbOptions()
     library.mcc_decode_glb_options_init(ctypes.byref(options), ctypes.sizeof(options))
-    options.decode_to_integers = to_integers
+    options.decode_to = choice(decode_to, DECODE_TO, "decode_to")
     options.thread_count = unsigned(thread_count, "thread_count")
     options.max_decoded_bytes = unsigned(max_decoded_bytes, "max_decoded_bytes", 64)
     return _document(source, lambda glb, document: library.mcc_decode_glb(

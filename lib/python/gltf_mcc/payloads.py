@@ -15,6 +15,7 @@ from .errors import check
 
 _SEMANTICS = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD", "COLOR", "JOINTS", "WEIGHTS")
 _CUSTOM = 7
+_BASE = -1  # what Attribute.target is for the mesh itself
 _NUMBERED = {"TEXCOORD", "COLOR", "JOINTS", "WEIGHTS"}
 _FORMATS = "bBhHIf"  # of struct and memoryview, by the number of the component type
 
@@ -28,7 +29,7 @@ class Attribute:
             payloads do not hold its name
         data: one row for each vertex, one column for each component
         normalized: integers stand for fractions
-        morph_target: 0 for the base mesh, k for the deltas of morph target k - 1
+        target: -1 for the mesh itself, else the index of a morph target, from 0, whose deltas these are
         coding: "lattice", "integer", "exact float", "octahedral", "tangent angle", "alias" or "grid"
         bits: the bits that were kept, 0 if that says nothing about the coding
     """
@@ -36,7 +37,7 @@ class Attribute:
     name: str
     data: Any
     normalized: bool
-    morph_target: int
+    target: int
     coding: str
     bits: int
 
@@ -56,7 +57,7 @@ class Piece:
     def __getitem__(self, name: str) -> Any:
         """Returns the data of an attribute of the base mesh: piece["POSITION"]."""
         for attribute in self.attributes:
-            if attribute.name == name and attribute.morph_target == 0:
+            if attribute.name == name and attribute.target == _BASE:
                 return attribute.data
         raise KeyError(name)
 
@@ -131,14 +132,14 @@ def encode_mesh(attributes: Mapping[str, Any], indices: Any, *, bits: Optional[M
     """
     if "POSITION" not in attributes:
         raise ValueError("attributes have no POSITION")
-    sources = [("POSITION", attributes["POSITION"], 0)]
-    sources += [(name, array, 0) for name, array in attributes.items() if name != "POSITION"]
-    sources += [(name, array, k + 1) for k, target in enumerate(morph_targets) for name, array in target.items()]
+    sources = [("POSITION", attributes["POSITION"], _BASE)]
+    sources += [(name, array, _BASE) for name, array in attributes.items() if name != "POSITION"]
+    sources += [(name, array, k) for k, target in enumerate(morph_targets) for name, array in target.items()]
     kept: List[Any] = []  # what the structs point to
     views = (_library.AttributeView * len(sources))()
     counts = set()
-    for view, (name, array, morph_target) in zip(views, sources):
-        counts.add(_fill_view(view, name, array, morph_target, kept))
+    for view, (name, array, target) in zip(views, sources):
+        counts.add(_fill_view(view, name, array, target, kept))
         view.format.normalized = name in normalized
         view.quantization_bits = unsigned((bits or {}).get(name, 0), f"bits of {name}")
     if len(counts) != 1:
@@ -209,7 +210,8 @@ def _attribute(facts: _library.AttributeInfo, memory: bytearray, count: int) -> 
         if name in _NUMBERED:
             name += f"_{form.set_index}"
     data = array_over(memory, _FORMATS[form.component_type], (count, form.component_count))
-    return Attribute(name, data, bool(form.normalized), form.morph_target, _library.Coding(facts.coding).name.lower().replace("_", " "), facts.bits)
+    return Attribute(name, data, bool(form.normalized), form.morph_target - 1,
+                     _library.Coding(facts.coding).name.lower().replace("_", " "), facts.bits)
 
 
 def _buffer_of(array: Any, what: str) -> Tuple[memoryview, str]:
@@ -223,7 +225,7 @@ def _buffer_of(array: Any, what: str) -> Tuple[memoryview, str]:
     return view, code
 
 
-def _fill_view(view: _library.AttributeView, name: str, array: Any, morph_target: int, kept: List[Any]) -> int:
+def _fill_view(view: _library.AttributeView, name: str, array: Any, target: int, kept: List[Any]) -> int:
     """Fills a view of one attribute and returns the number of its elements."""
     buffer, code = _buffer_of(array, name)
     if buffer.ndim not in (1, 2):
@@ -232,7 +234,7 @@ def _fill_view(view: _library.AttributeView, name: str, array: Any, morph_target
     view.format.semantic, view.format.set_index = _meaning(name)
     view.format.component_type = _FORMATS.index(code)
     view.format.component_count = columns
-    view.format.morph_target = morph_target
+    view.format.morph_target = target + 1
     memory = bytearray(buffer.tobytes())
     kept.append(memory)
     view.data = _address(memory)

@@ -295,6 +295,11 @@ const Json& arrayOf(const Json& object, std::string_view key);
 /// else.
 bool asUnsigned(const Json& json, uint64_t& value);
 
+/// The same, where null is no number.
+inline bool asUnsigned(const Json* json, uint64_t& value) {
+  return json != nullptr && asUnsigned(*json, value);
+}
+
 /// Reads any number; one too large for binary64 is infinite. Returns false for anything else.
 bool asNumber(const Json& json, double& value);
 

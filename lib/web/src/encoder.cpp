@@ -36,8 +36,8 @@ MCC_EXPORT("setBits")
 void mccSetBits(uint32_t position, uint32_t normal, uint32_t texcoord, uint32_t color,
                 uint32_t tangent, uint32_t weight) {
   const auto bits = [](uint32_t value) { return static_cast<uint8_t>(value); };
-  options.bits = {bits(position), bits(normal),  bits(texcoord),
-                  bits(color),    bits(tangent), bits(weight)};
+  static_cast<mcc::gltf::QuantizationBits&>(options) = {
+      bits(position), bits(normal), bits(texcoord), bits(color), bits(tangent), bits(weight)};
 }
 
 MCC_EXPORT("setModes")

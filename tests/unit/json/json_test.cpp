@@ -10,9 +10,9 @@
 #include <random>
 #include <vector>
 
-#include "gltf/gltf_builder.h"
 #include "json/json.h"
 #include "json/json_scanner.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::gltf::test {
 namespace {

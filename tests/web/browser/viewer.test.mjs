@@ -285,7 +285,7 @@ test('the download is what the program writes with the same options', async () =
   await page.check('[name=lossless]');
   await settle(page);
   const { bytes } = await downloaded(page);
-  assert.deepEqual(bytes, Buffer.from(convert(source, ['--lossless', '--keep-order', 'both'])));
+  assert.deepEqual(bytes, Buffer.from(convert(source, ['--lossless', '--keep-vertex-order', '--keep-triangle-order'])));
   assert.match(await textOf(page, 'summary'), /Largest error0every position is exact/);
 
   // What was compressed already is opened, too, and its figures are against what it decodes to.
@@ -686,7 +686,7 @@ test('a compressed model appears block by block', async () => {
     const note = () => globalThis.seen.push(document.getElementById('original').dataset.blocks);
     new MutationObserver(note).observe(document.getElementById('original'), { attributeFilter: ['data-blocks'] });
   });
-  await drop(page, 'blocks.glb', convert(readSample('torus'), ['--block', '500']));
+  await drop(page, 'blocks.glb', convert(readSample('torus'), ['--block-triangles', '500']));
   await settle(page);
   const seen = (await page.evaluate(() => globalThis.seen)).filter(Boolean);
   assert.ok(seen.length > 0 && seen.every((text) => / of 9$/.test(text)), seen.join());
@@ -694,7 +694,7 @@ test('a compressed model appears block by block', async () => {
   const { original, compressed } = await picturesOf(page);
   assert.ok(coverageOf(original) >= MIN_COVERAGE);
   assert.ok(differenceOf(original, compressed) <= MAX_DIFFERENCE_FROM_SOURCE);
-  const damaged = convert(readSample('torus'), ['--block', '500']);
+  const damaged = convert(readSample('torus'), ['--block-triangles', '500']);
   damaged[damaged.length - 10] ^= 1;
   await drop(page, 'damaged.glb', damaged);
   await page.waitForFunction(() => document.getElementById('error').textContent.includes('checksum'), undefined, { timeout: 30_000 });

@@ -6,7 +6,7 @@ import { readGlb } from '../../../lib/web/unpack.mjs';
 import { convert, readSample } from './program.mjs';
 
 /** A sample whose large pieces are cut into blocks of so many triangles. */
-export const blocksGlb = (name, triangles = 300) => convert(readSample(name), ['--block', `${triangles}`]);
+export const blocksGlb = (name, triangles = 300) => convert(readSample(name), ['--block-triangles', `${triangles}`]);
 
 /** All payloads of a GLB, with `bufferView` and `claims`. */
 export function payloadsIn(glb) {

@@ -9,9 +9,9 @@ import { build } from 'vite';
 import { ENGINES, LIBRARY } from './paths.mjs';
 
 /** Where a project would have the packages. */
-const ALIAS = [
-  { find: /^gltf-mcc\/(.*)$/, replacement: path.join(LIBRARY, '$1.mjs') },
-  { find: /^gltf-mcc$/, replacement: path.join(LIBRARY, 'index.mjs') },
+const aliases = (library) => [
+  { find: /^gltf-mcc\/(.*)$/, replacement: path.join(library, '$1.mjs') },
+  { find: /^gltf-mcc$/, replacement: path.join(library, 'index.mjs') },
   { find: /^three\/addons\//, replacement: path.join(ENGINES, 'three/examples/jsm/') },
   { find: /^three$/, replacement: path.join(ENGINES, 'three/build/three.module.js') },
   { find: /^@babylonjs\//, replacement: path.join(ENGINES, '@babylonjs/') },
@@ -20,7 +20,7 @@ const ALIAS = [
 /**
  * @param {string} folder where the sources are written
  * @param {Record<string, string>} files index.html and what belongs to it, by name
- * @param {object} [options] of Vite
+ * @param {object} [options] of Vite, and `library`: another folder than lib/web
  * @returns {Promise<object[]>} the chunks and assets; they are also in `folder`/dist
  */
 export async function bundle(folder, files, options = {}) {
@@ -28,8 +28,8 @@ export async function bundle(folder, files, options = {}) {
     mkdirSync(path.dirname(path.join(folder, name)), { recursive: true });
     writeFileSync(path.join(folder, name), text);
   }
-  const { build: how, ...others } = options;
-  const { output } = await build({ root: folder, logLevel: 'error', configFile: false, resolve: { alias: ALIAS }, build: how, ...others });
+  const { build: how, library = LIBRARY, ...others } = options;
+  const { output } = await build({ root: folder, logLevel: 'error', configFile: false, resolve: { alias: aliases(library) }, build: how, ...others });
   return output;
 }
 

@@ -1,13 +1,13 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Is never run: tsc checks it against the package's types.
-import { createDecoderPool, decodeBlocks, decodeGlbBlocks, decodePayload, init, MccError, ready, unpackGlb, unpackTile, type DecodedPayload } from 'gltf-mcc';
+import { createDecoderPool, decodeBlocks, decodeGlbBlocks, decodePayload, init, MccError, preload, ready, unpackGlb, unpackTile, type DecodedPayload } from 'gltf-mcc';
 import { elementsOf, payloadsOf, EXTENSION_NAME } from 'gltf-mcc/document';
 import { encodeGlb } from 'gltf-mcc/encoder';
 
 async function use(glb: Uint8Array, json: object): Promise<number> {
   await init({ wasmUrl: new URL('https://example.com/mcc_decoder.wasm') });
-  await ready;
+  await Promise.all([ready, preload()]);
   const pool = createDecoderPool({ workers: 2 });
   const plain: Uint8Array = await unpackGlb(glb, { decode: pool.decodePayload, limits: { maxTriangles: 1000 } });
   const tile: Uint8Array = await unpackTile(plain, { decode: pool.decodePayload, limits: { maxDecodedBytes: 2 ** 30 } });

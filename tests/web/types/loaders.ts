@@ -7,7 +7,7 @@ import { encodeGlb } from '../../../lib/web/encoder.mjs';
 import { createDecoderPool } from '../../../lib/web/index.mjs';
 import { registerMeshCollapse } from '../../../lib/web/babylon.mjs';
 import { KHRMeshCollapseCompression, meshCollapse } from '../../../lib/web/gltf-transform.mjs';
-import { MeshCollapsePlugin } from '../../../lib/web/three.mjs';
+import { MeshCollapsePlugin, preload, registerMeshCollapse as registerWithThree } from '../../../lib/web/three.mjs';
 
 // What @types/three says of plugins of GLTFLoader.
 interface GLTFLoaderPlugin {
@@ -22,6 +22,9 @@ export const plugin = (parser: object): GLTFLoaderPlugin =>
 
 export const watched = (parser: object): GLTFLoaderPlugin =>
   new MeshCollapsePlugin(parser, { onBlock: (geometry, { index, blockCount }) => { geometry.name = `${index} of ${blockCount}`; } });
+
+void preload();
+export const loader: { load(): void } = registerWithThree({ load() {} }, { limits: { maxVertices: 1e6 } });
 
 registerMeshCollapse();
 registerMeshCollapse({ decode: pool.decodePayload });

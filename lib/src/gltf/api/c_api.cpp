@@ -28,12 +28,12 @@ mcc_convert_options defaultConvertOptions() {
   const ConvertOptions defaults;
   mcc_convert_options options = {};
   options.struct_bytes = sizeof(options);
-  options.position_bits = defaults.bits.position;
-  options.normal_bits = defaults.bits.normal;
-  options.texcoord_bits = defaults.bits.texcoord;
-  options.color_bits = defaults.bits.color;
-  options.tangent_bits = defaults.bits.tangent;
-  options.weight_bits = defaults.bits.weight;
+  options.position_bits = defaults.position_bits;
+  options.normal_bits = defaults.normal_bits;
+  options.texcoord_bits = defaults.texcoord_bits;
+  options.color_bits = defaults.color_bits;
+  options.tangent_bits = defaults.tangent_bits;
+  options.weight_bits = defaults.weight_bits;
   options.thread_count = defaults.thread_count;
   options.block_triangles = defaults.block_triangles;
   return options;
@@ -52,12 +52,12 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
   MCC_TRY(
       checkFlags({options.lossless, options.is_error_relative, options.indices_only,
                   options.keep_vertex_order, options.keep_triangle_order, options.drop_unused}));
-  out.bits.position = clampedTo<uint8_t>(options.position_bits);
-  out.bits.normal = clampedTo<uint8_t>(options.normal_bits);
-  out.bits.texcoord = clampedTo<uint8_t>(options.texcoord_bits);
-  out.bits.color = clampedTo<uint8_t>(options.color_bits);
-  out.bits.tangent = clampedTo<uint8_t>(options.tangent_bits);
-  out.bits.weight = clampedTo<uint8_t>(options.weight_bits);
+  out.position_bits = clampedTo<uint8_t>(options.position_bits);
+  out.normal_bits = clampedTo<uint8_t>(options.normal_bits);
+  out.texcoord_bits = clampedTo<uint8_t>(options.texcoord_bits);
+  out.color_bits = clampedTo<uint8_t>(options.color_bits);
+  out.tangent_bits = clampedTo<uint8_t>(options.tangent_bits);
+  out.weight_bits = clampedTo<uint8_t>(options.weight_bits);
   out.lossless = options.lossless != 0;
   out.grid = clampedTo<Grid>(options.grid);
   out.max_position_error = options.max_position_error;
@@ -137,13 +137,13 @@ mcc_status mcc_decode_glb(const void* glb, size_t byte_count, const mcc_decode_g
                           mcc_document** document) {
   mcc_decode_glb_options read;
   mcc::Status status = mcc::readStruct(options, mcc::gltf::defaultDecodeOptions(), read);
-  if (status.ok()) status = mcc::checkFlags({read.decode_to_integers});
+  if (status.ok()) status = mcc::checkFlags({read.decode_to});
   if (!status.ok()) {
     if (document != nullptr) *document = nullptr;
     return mcc::toC(status);
   }
-  mcc::gltf::FileDecodeOptions decode_options;
-  if (read.decode_to_integers != 0) decode_options.decode_to = mcc::gltf::DecodeTo::kIntegers;
+  mcc::gltf::DecodeOptions decode_options;
+  decode_options.decode_to = static_cast<mcc::gltf::DecodeTo>(read.decode_to);
   decode_options.thread_count = read.thread_count;
   decode_options.max_decoded_bytes = read.max_decoded_bytes;
   return mcc::gltf::makeDocument(glb, byte_count, document,

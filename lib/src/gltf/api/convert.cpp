@@ -257,6 +257,7 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
   MCC_GLTF_TRY(compressDocument(document, options, compressed));
   // What another codec compressed and ours cannot read is no reason to refuse the rest.
   if (compressed.payloads.empty() && !refused.ok()) return refused;
+  tell(options, "proving");
   const Stopwatch proving;
   MCC_GLTF_TRY(
       provePayloads(document, options.thread_count, compressed.payloads, conversion.proofs));
@@ -326,7 +327,7 @@ Result checkOutput(Conversion& conversion, const ConvertOptions& options,
   return {};
 }
 
-Result decodeInput(Input& input, const Output& output, const FileDecodeOptions& options,
+Result decodeInput(Input& input, const Output& output, const DecodeOptions& options,
                    Package& package, DecodeReport& report) {
   report = {};
   const Stopwatch watch;
@@ -377,14 +378,15 @@ bool areBits(uint8_t bits, uint32_t from, uint32_t to) {
 }  // namespace
 
 Status checkOptions(const ConvertOptions& options) {
-  const QuantizationBits& bits = options.bits;
-  for (const uint8_t number : {bits.position, bits.texcoord, bits.color, bits.weight}) {
+  const QuantizationBits& bits = options;
+  for (const uint8_t number :
+       {bits.position_bits, bits.texcoord_bits, bits.color_bits, bits.weight_bits}) {
     if (!areBits(number, 1, kMaxLatticeBits)) {
       return fail(Error::kBadArgument,
                   "the bits of positions, texture coordinates, colours and weights are 0 to 24");
     }
   }
-  for (const uint8_t number : {bits.normal, bits.tangent}) {
+  for (const uint8_t number : {bits.normal_bits, bits.tangent_bits}) {
     if (!areBits(number, kMinUnitBits, kMaxUnitBits)) {
       return fail(Error::kBadArgument, "the bits of normals and tangents are 0, or 2 to 16");
     }
@@ -436,7 +438,7 @@ Result convertTo(const ListedSink& sink, const Source& source, const ConvertOpti
   return result;
 }
 
-Result decodeTo(const ListedSink& sink, const Source& source, const FileDecodeOptions& options,
+Result decodeTo(const ListedSink& sink, const Source& source, const DecodeOptions& options,
                 DecodeReport& report) {
   const Result result = guarded([&]() -> Result {
     Input input;
@@ -458,7 +460,7 @@ Result convert(const Source& source, const Sink& sink, const ConvertOptions& opt
 }
 
 Result decode(const Source& source, const Sink& sink, DecodeReport& report,
-              const FileDecodeOptions& options, FilesInUse* files) {
+              const DecodeOptions& options, FilesInUse* files) {
   return decodeTo({sink, nullptr, files}, source, options, report);
 }
 
@@ -473,12 +475,12 @@ Result convertFile(const fs::path& source, const fs::path& output, const Convert
 }
 
 Result decodeGlb(std::span<const uint8_t> source, std::vector<uint8_t>& output,
-                 DecodeReport& report, const FileDecodeOptions& options) {
+                 DecodeReport& report, const DecodeOptions& options) {
   return decode({{}, source}, {{}, &output}, report, options);
 }
 
 Result decodeFile(const fs::path& source, const fs::path& output, DecodeReport& report,
-                  const FileDecodeOptions& options) {
+                  const DecodeOptions& options) {
   return decode({source, {}}, {output, nullptr}, report, options);
 }
 

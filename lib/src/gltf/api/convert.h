@@ -28,7 +28,7 @@ Status checkOptions(const ConvertOptions& options);
 ///         the source names may be links to anything in it.
 Result convertTo(const ListedSink& sink, const Source& source, const ConvertOptions& options,
                  ConvertReport& report, const std::filesystem::path& within = {});
-Result decodeTo(const ListedSink& sink, const Source& source, const FileDecodeOptions& options,
+Result decodeTo(const ListedSink& sink, const Source& source, const DecodeOptions& options,
                 DecodeReport& report);
 
 }  // namespace mcc::gltf

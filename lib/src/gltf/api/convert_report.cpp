@@ -54,7 +54,7 @@ void addAttributeBits(const EncodedPayload& payload, const std::vector<size_t>& 
 }  // namespace
 
 void addPrimitives(const Document& document, const Compressed& compressed, ConvertReport& report) {
-  std::map<std::pair<uint32_t, uint32_t>, PrimitiveReport> known;
+  std::map<PrimitiveRef, PrimitiveReport> known;
   for (uint32_t i = 0; i < compressed.payloads.size(); ++i) {
     const EncodeResult& result = compressed.payloads[i].result;
     if (!result.whole_because.empty()) {
@@ -64,27 +64,22 @@ void addPrimitives(const Document& document, const Compressed& compressed, Conve
     for (const PiecePlan& piece : compressed.payloads[i].plan.pieces) {
       for (const PartPlan& part : piece.parts) {
         for (const PrimitiveRef& user : part.users) {
-          known[{user.mesh, user.primitive}] = {
+          known[user] = {
               user.mesh, user.primitive, true, i, part.triangles.size() / 3, piece.wedge_count, ""};
         }
       }
     }
   }
   for (const LeftAlone& left : compressed.left_alone) {
-    PrimitiveReport& primitive = known[{left.primitive.mesh, left.primitive.primitive}];
-    primitive.note = left.note;
+    known[left.primitive].note = left.note;
     (left.is_larger ? report.remarks : report.notes)
         .push_back(left.primitive.path() + ": " + left.note);
   }
-  const Json& meshes = arrayOf(document.json, "meshes");
-  for (uint32_t m = 0; m < meshes.size(); ++m) {
-    const size_t count = arrayOf(meshes[m], "primitives").size();
-    for (uint32_t p = 0; p < count; ++p) {
-      PrimitiveReport primitive = known[{m, p}];
-      primitive.mesh = m;
-      primitive.primitive = p;
-      report.primitives.push_back(primitive);
-    }
+  for (const Primitive& primitive : document.primitives) {
+    PrimitiveReport& row = known[primitive.ref];
+    row.mesh = primitive.ref.mesh;
+    row.primitive = primitive.ref.primitive;
+    report.primitives.push_back(std::move(row));
   }
 }
 

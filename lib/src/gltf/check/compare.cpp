@@ -286,8 +286,7 @@ class BytesChecker {
     uint64_t old_view = 0;
     uint64_t new_view = 0;
     if (!asUnsigned(*number, old_view) || old_view >= source_.views.size()) return;
-    const bool exists = new_number != nullptr && asUnsigned(*new_number, new_view) &&
-                        new_view < written_.views.size();
+    const bool exists = asUnsigned(new_number, new_view) && new_view < written_.views.size();
     if (!exists) return addDifference(array, index, what);
     add(viewRange(source_, old_view), viewRange(written_, new_view), array, index, what);
   }

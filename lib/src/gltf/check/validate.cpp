@@ -91,11 +91,9 @@ class Validator {
     }
   }
 
-  const Json& primitiveOf(const ExtensionUse& use) const { return *use.json; }
-
   /// Checks properties by the JSON Schema that decoding does not look at.
   void checkObject(const ExtensionUse& use) {
-    const Json& extension = primitiveOf(use)["extensions"][kExtensionName];
+    const Json& extension = (*use.json)["extensions"][kExtensionName];
     const Json* nested = findMember(extension, "extensions");
     if (nested == nullptr) return;
     const std::string path = use.path + "/extensions";
@@ -262,12 +260,7 @@ class Validator {
     }
     if (use.indices_accessor == kNone || !checked_.insert(use.indices_accessor).second) return;
     const uint32_t bytes = componentBytes(document_.accessors[use.indices_accessor].component_type);
-    std::vector<uint8_t> indices;
-    indices.reserve(bytes * piece.parts[use.part].size());
-    for (const uint32_t index : piece.parts[use.part]) {
-      for (uint32_t i = 0; i < bytes; ++i) indices.push_back(static_cast<uint8_t>(index >> 8 * i));
-    }
-    checkAccessor(use.indices_accessor, indices, false);
+    checkAccessor(use.indices_accessor, narrowIndices(piece.parts[use.part], bytes), false);
   }
 
   /// Checks an accessor; `tight` has the decoded elements.

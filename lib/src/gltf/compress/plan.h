@@ -56,7 +56,7 @@ struct PiecePlan {
   /// indices_only, else those beyond what a payload can hold.
   std::vector<AttributePlan> ordinary;
   std::vector<PartPlan> parts;
-  /// Accessors that hold numbers of its vertices, and nothing else uses; see vertex_numbers.h.
+  /// Accessors that hold numbers of its vertices, and nothing else uses; see vertices.h.
   std::vector<uint32_t> vertex_numbers;
 };
 

@@ -103,7 +103,7 @@ class QuantizationPlanner {
   }
 
   void planPositions() {
-    const uint8_t bits = options_.bits.position;
+    const uint8_t bits = options_.position_bits;
     if (bits == 0 && options_.max_position_error == 0 && !options_.position_lattice) return;
     std::vector<std::vector<Member>> groups;
     for (PayloadPlan& payload : payloads_) {
@@ -186,12 +186,12 @@ class QuantizationPlanner {
 
   uint8_t bitsOf(Semantic semantic) const {
     switch (semantic) {
-      case Semantic::kPosition: return options_.bits.position;
-      case Semantic::kNormal: return options_.bits.normal;
-      case Semantic::kTangent: return options_.bits.tangent;
-      case Semantic::kTexcoord: return options_.bits.texcoord;
-      case Semantic::kColor: return options_.bits.color;
-      case Semantic::kWeights: return options_.bits.weight;
+      case Semantic::kPosition: return options_.position_bits;
+      case Semantic::kNormal: return options_.normal_bits;
+      case Semantic::kTangent: return options_.tangent_bits;
+      case Semantic::kTexcoord: return options_.texcoord_bits;
+      case Semantic::kColor: return options_.color_bits;
+      case Semantic::kWeights: return options_.weight_bits;
       case Semantic::kJoints:
       case Semantic::kCustom: break;
     }

@@ -158,8 +158,8 @@ ByteOwners ownersOf(const Document& document, const std::vector<bool>& in_other_
   }
   for (const Json& image : arrayOf(document.json, "images")) {
     uint64_t view = 0;
-    const Json* number = findMember(image, "bufferView");
-    if (number == nullptr || !asUnsigned(*number, view) || view >= document.views.size()) continue;
+    if (!asUnsigned(findMember(image, "bufferView"), view) || view >= document.views.size())
+      continue;
     owners.add({viewRange(document, view)}, ByteOwners::kSomebodyElse);
   }
   owners.count();

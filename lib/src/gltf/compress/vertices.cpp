@@ -201,23 +201,15 @@ void renumberVertices(const Document& document, const PiecePlan& piece,
     std::vector<uint32_t> numbers;
     // They could be read before. Without numbers, there is nothing to change.
     if (!readIndices(document, index, numbers).ok() || numbers.empty()) continue;
-    const uint32_t bytes_each = componentBytes(accessor.component_type);
-    std::vector<uint8_t> bytes;
-    for (uint32_t& number : numbers) {
-      number = decoded_wedge[number];
-      for (uint32_t byte = 0; byte < bytes_each; ++byte) {
-        bytes.push_back(static_cast<uint8_t>(number >> (8 * byte)));
-      }
-    }
+    for (uint32_t& number : numbers) number = decoded_wedge[number];
     NewView view;
-    view.hold(std::move(bytes));
+    view.hold(narrowIndices(numbers, componentBytes(accessor.component_type)));
     Json& edited = accessors[index];
     edited.erase("byteOffset");
     edited["bufferView"] = kFirstNewView + views.size();
-    const Json* target = findMember(old_views[accessor.view], "target");
-    uint64_t number = 0;
-    if (target != nullptr && asUnsigned(*target, number) && number <= 0xffffffffu) {
-      view.target = static_cast<uint32_t>(number);
+    uint64_t target = 0;
+    if (asUnsigned(findMember(old_views[accessor.view], "target"), target) && target <= kNone) {
+      view.target = static_cast<uint32_t>(target);
     }
     setBounds(boundsOf(numbers), ComponentType::kUint32, false, edited);
     views.push_back(std::move(view));

@@ -134,7 +134,7 @@ class MeshReader {
   Result accessorOf(const Json* number, const std::string& name, const std::string& path,
                     uint32_t& accessor) const {
     uint64_t index = 0;
-    if (number == nullptr || !asUnsigned(*number, index) || index >= document_.accessors.size()) {
+    if (!asUnsigned(number, index) || index >= document_.accessors.size()) {
       return error(at(path, name), "must be the number of an accessor");
     }
     accessor = static_cast<uint32_t>(index);
@@ -255,13 +255,11 @@ class MeshReader {
         mesh.attributes.size() != coded.attributes.size()) {
       return error(coded.path, "decodes to other counts than the accessors have");
     }
-    std::vector<uint8_t> indices;
     const uint32_t bytes = document_.accessors[coded.indices].tightBytes();
     for (const uint32_t index : mesh.indices) {
       if (index >= coded.coded.vertex_count || uint64_t{index} >> 8 * bytes != 0) {
         return error(coded.path, "has an index that its accessor cannot hold");
       }
-      for (uint32_t i = 0; i < bytes; ++i) indices.push_back(static_cast<uint8_t>(index >> 8 * i));
     }
     for (size_t i = 0; i < coded.attributes.size(); ++i) {
       const Accessor& accessor = document_.accessors[coded.attributes[i]];
@@ -272,7 +270,7 @@ class MeshReader {
     for (size_t i = 0; i < coded.attributes.size(); ++i) {
       store(coded, coded.attributes[i], std::move(mesh.attributes[i]));
     }
-    store(coded, coded.indices, std::move(indices));
+    store(coded, coded.indices, narrowIndices(mesh.indices, bytes));
     return {};
   }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <deque>
 
-#include "gltf/decompress/integers.h"
 #include "gltf/document/accessors.h"
 #include "gltf/document/references.h"
 #include "host/parallel.h"
@@ -121,7 +120,7 @@ class PayloadDecoder::Run {
       for (size_t k = 0; k < infos[i].parts.size(); ++k) addPart(infos[i], i, k);
       pieces.push_back({attributes_[i], parts_[i]});
     }
-    DecodeOptions options;
+    mcc::DecodeOptions options;
     options.run_jobs = runnerOf(run_jobs);
     MCC_GLTF_TRY(toResult(payload_.payload.decode(pieces, options), payload_.where));
     for (const Detour& detour : detours_) store(detour);
@@ -234,7 +233,7 @@ Result Decompressed::fill(uint32_t thread_count, std::span<uint8_t> buffer) cons
                          [&](size_t view) { return buffer.data() + layout.offsets[view]; });
 }
 
-Result decompressDocument(const Document& document, const FileDecodeOptions& options,
+Result decompressDocument(const Document& document, const DecodeOptions& options,
                           Decompressed& decompressed) {
   using Views = PayloadDecoder::Views;
   decompressed = {};

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "gltf/decompress/integer_accessors.h"
+#include "gltf/decompress/integers.h"
 #include "gltf/document/extension_uses.h"
 #include "gltf/document/layout.h"
 #include "gltf/document/payload.h"
@@ -118,7 +118,7 @@ struct Decompressed {
 /// Attributes become integers if options.decode_to says so; `notes` names what stays float. Errors
 /// carry JSON paths. It is an error when document.decoded is above its limit, which is checked
 /// before memory is taken. Safe for untrusted documents.
-Result decompressDocument(const Document& document, const FileDecodeOptions& options,
+Result decompressDocument(const Document& document, const DecodeOptions& options,
                           Decompressed& decompressed);
 
 /// Adds another buffer, the last one, to a compressed document. The extension is no longer

@@ -5,12 +5,244 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <numbers>
 #include <optional>
+#include <set>
+#include <string_view>
 
 #include "gltf/document/accessors.h"
+#include "values/enc_extent.h"
 
 namespace mcc::gltf {
 namespace {
+
+/// Reads and replaces the elements of decoded accessors in a document that is not laid out yet.
+class IntegerAccessors {
+ public:
+  /// json and views are those of layOut(); both must outlive the object.
+  IntegerAccessors(const Document& source, const CodedAttributes& coded, Json& json,
+                   std::vector<NewView>& views);
+
+  /// Returns how an accessor was coded if it still holds floats on a grid and all its users mean
+  /// the same attribute by it; else null.
+  const AttributeInfo* coding(uint32_t accessor) const;
+
+  /// Returns a label such as "/accessors/3: target POSITION". The accessor must have a coding.
+  std::string label(uint32_t accessor) const;
+  uint64_t count(uint32_t accessor) const { return source_.accessors[accessor].count; }
+  /// Returns component `index`, counted over all components of all elements.
+  double value(uint32_t accessor, uint64_t index) const;
+
+  /// Replaces the values, three per element for a VEC3 and so on, and updates the bounds. Must be
+  /// called at most once per accessor.
+  void replace(uint32_t accessor, ComponentType type, bool normalized,
+               const std::vector<int32_t>& values);
+
+ private:
+  const Document& source_;
+  const CodedAttributes& coded_;
+  Json& json_;
+  std::vector<NewView>& views_;
+  std::map<uint32_t, std::set<std::string>> meanings_;  ///< the attributes it is used as
+  std::set<uint32_t> replaced_;
+};
+
+IntegerAccessors::IntegerAccessors(const Document& source, const CodedAttributes& coded, Json& json,
+                                   std::vector<NewView>& views)
+    : source_(source), coded_(coded), json_(json["accessors"]), views_(views) {
+  for (const Primitive& primitive : source.primitives) {
+    for (const auto& [name, target, accessor] : primitive.attributes) {
+      if (accessor == kNone) continue;
+      meanings_[accessor].insert((target == kNone ? "" : "target ") + std::string(name));
+    }
+  }
+}
+
+const AttributeInfo* IntegerAccessors::coding(uint32_t accessor) const {
+  const auto found = coded_.find(accessor);
+  if (found == coded_.end()) return nullptr;
+  const Accessor& source = source_.accessors[accessor];
+  if (source.isUsedOutsideMeshes() || source.extension_uses != 0) return nullptr;
+  switch (found->second.coding) {
+    case AttributeCoding::kLattice:
+    case AttributeCoding::kOctahedral:
+    case AttributeCoding::kTangentAngle: break;
+    default: return nullptr;
+  }
+  const bool is_free = replaced_.count(accessor) == 0 && meanings_.at(accessor).size() == 1;
+  return is_free ? &found->second : nullptr;
+}
+
+std::string IntegerAccessors::label(uint32_t accessor) const {
+  return at("/accessors", accessor) + ": " + *meanings_.at(accessor).begin();
+}
+
+double IntegerAccessors::value(uint32_t accessor, uint64_t index) const {
+  const uint64_t view = json_[accessor]["bufferView"].get<uint64_t>();
+  return componentValue(views_[view - kFirstNewView].bytes + 4 * index, ComponentType::kFloat32);
+}
+
+void IntegerAccessors::replace(uint32_t index, ComponentType type, bool normalized,
+                               const std::vector<int32_t>& values) {
+  static constexpr int kGlTypes[] = {5120, 5121, 5122, 5123, 5125, 5126};
+  replaced_.insert(index);
+  Accessor accessor = source_.accessors[index];
+  accessor.component_type = type;
+  const uint32_t bytes = componentBytes(type);
+  const uint32_t components = accessor.componentCount();
+  std::vector<uint8_t> tight;
+  std::vector<int32_t> low(components, std::numeric_limits<int32_t>::max());
+  std::vector<int32_t> high(components, std::numeric_limits<int32_t>::min());
+  for (size_t i = 0; i < values.size(); ++i) {
+    for (uint32_t b = 0; b < bytes; ++b) tight.push_back(static_cast<uint8_t>(values[i] >> 8 * b));
+    low[i % components] = std::min(low[i % components], values[i]);
+    high[i % components] = std::max(high[i % components], values[i]);
+  }
+  Json& json = json_[index];
+  NewView& view = views_[json["bufferView"].get<uint64_t>() - kFirstNewView];
+  view.hold(packAttribute(tight, accessor, view.stride_bytes));
+  json["componentType"] = kGlTypes[static_cast<size_t>(type)];
+  json.erase("normalized");
+  if (normalized) json["normalized"] = true;
+  if (findMember(json, "min") != nullptr) json["min"] = low;
+  if (findMember(json, "max") != nullptr) json["max"] = high;
+}
+
+// ---- Values other than positions
+
+/// Much larger than the rounding of a unit vector's component, and much smaller than any step.
+constexpr double kSlack = 1e-6;
+
+struct IntegerType {
+  ComponentType type;
+  double last;  ///< the integer that stands for 1
+};
+constexpr IntegerType kSigned[] = {{ComponentType::kInt8, 127}, {ComponentType::kInt16, 32767}};
+constexpr IntegerType kUnsigned[] = {{ComponentType::kUint8, 255}, {ComponentType::kUint16, 65535}};
+
+bool isUnitVector(const AttributeFormat& format) {
+  return format.semantic == Semantic::kNormal || format.semantic == Semantic::kTangent;
+}
+
+/// Returns the distance of neighbouring values of the coded grid.
+double codedStep(const AttributeInfo& info) {
+  const auto points = static_cast<double>(uint64_t{1} << info.bits);
+  switch (info.coding) {
+    case AttributeCoding::kOctahedral: return 2 / (points - 2);
+    case AttributeCoding::kTangentAngle: return 2 * std::numbers::pi / points;
+    default: return double{info.lattice.step};
+  }
+}
+
+/// Returns the smallest type whose steps are not coarser than the coded ones; null if there is
+/// none.
+const IntegerType* typeFor(const AttributeInfo& info) {
+  for (const IntegerType& type : isUnitVector(info.format) ? kSigned : kUnsigned) {
+    if (1 / type.last <= codedStep(info) * (1 + kSlack)) return &type;
+  }
+  return nullptr;
+}
+
+/// Returns why an attribute stays float; empty when it can become integer.
+std::string obstacle(const AttributeInfo& info, uint32_t accessor,
+                     const IntegerAccessors& accessors) {
+  if (typeFor(info) == nullptr) return "has finer steps than 16 bits can hold";
+  const double low = isUnitVector(info.format) ? -1 : 0;
+  const uint64_t count = accessors.count(accessor) * info.format.component_count;
+  for (uint64_t i = 0; i < count; ++i) {
+    const double value = accessors.value(accessor, i);
+    if (value < low - kSlack || value > 1 + kSlack) {
+      return std::string("has values outside ") + (low == 0 ? "0 to 1" : "-1 to 1");
+    }
+  }
+  return "";
+}
+
+void storeNormalized(const AttributeInfo& info, uint32_t accessor, IntegerAccessors& accessors) {
+  const IntegerType& type = *typeFor(info);
+  std::vector<int32_t> values(accessors.count(accessor) * info.format.component_count);
+  for (uint64_t i = 0; i < values.size(); ++i) {
+    const double value = std::clamp(accessors.value(accessor, i), -1.0, 1.0);
+    values[i] = static_cast<int32_t>(std::floor(value * type.last + 0.5));
+  }
+  accessors.replace(accessor, type.type, true, values);
+}
+
+/// Stores the WEIGHTS of one primitive. Tuples that add up to one still do so.
+void storeWeights(const std::vector<uint32_t>& sets, const IntegerType& type,
+                  IntegerAccessors& accessors) {
+  const uint64_t count = accessors.count(sets[0]);
+  std::vector<std::vector<int32_t>> values(sets.size());
+  std::vector<double> points(4 * sets.size());
+  for (uint64_t vertex = 0; vertex < count; ++vertex) {
+    for (size_t i = 0; i < points.size(); ++i) {
+      points[i] = accessors.value(sets[i / 4], vertex * 4 + i % 4) * type.last;
+    }
+    roundTogether(points, type.last);
+    for (size_t i = 0; i < points.size(); ++i) {
+      values[i / 4].push_back(static_cast<int32_t>(std::clamp(points[i], 0.0, type.last)));
+    }
+  }
+  for (size_t k = 0; k < sets.size(); ++k) accessors.replace(sets[k], type.type, true, values[k]);
+}
+
+/// Returns the accessors of WEIGHTS_n of every primitive that has some.
+std::set<std::vector<uint32_t>> weightSets(const Document& source) {
+  std::set<std::vector<uint32_t>> all;
+  for (const Primitive& primitive : source.primitives) {
+    std::vector<uint32_t> sets;
+    for (const auto& [name, target, accessor] : primitive.attributes) {
+      if (target == kNone && name.starts_with("WEIGHTS_")) sets.push_back(accessor);
+    }
+    if (!sets.empty()) all.insert(std::move(sets));
+  }
+  return all;
+}
+
+/// Stores the weights of a primitive when all of its sets can become integers.
+void storeWeightsOf(const std::vector<uint32_t>& sets, IntegerAccessors& accessors,
+                    std::vector<std::string>& notes) {
+  const IntegerType* type = &kUnsigned[0];
+  for (const uint32_t set : sets) {
+    const AttributeInfo* info = accessors.coding(set);
+    if (info == nullptr) return;
+    const std::string reason = obstacle(*info, set, accessors);
+    if (!reason.empty()) {
+      notes.push_back(accessors.label(set) + " " + reason + "; it stays float");
+      return;
+    }
+    if (typeFor(*info)->last > type->last) type = typeFor(*info);
+  }
+  storeWeights(sets, *type, accessors);
+}
+
+/// Stores attributes other than positions as normalised integers, where their range allows it and
+/// no step becomes coarser. Normals and tangents become signed; texture coordinates, colours and
+/// weights become unsigned. Returns true when KHR_mesh_quantization is needed.
+bool storeIntegerValues(const Document& source, const CodedAttributes& coded,
+                        IntegerAccessors& accessors, std::vector<std::string>& notes) {
+  bool needs_extension = false;
+  for (const auto& [accessor, info] : coded) {
+    const Semantic semantic = info.format.semantic;
+    const bool is_other = semantic == Semantic::kPosition || semantic == Semantic::kWeights;
+    if (is_other || accessors.coding(accessor) == nullptr) continue;
+    const bool is_delta = info.format.morph_target != 0 && !isUnitVector(info.format);
+    const std::string reason = is_delta ? "is a difference" : obstacle(info, accessor, accessors);
+    if (reason.empty()) {
+      storeNormalized(info, accessor, accessors);
+      needs_extension |= isUnitVector(info.format);
+    } else {
+      notes.push_back(accessors.label(accessor) + " " + reason + "; it stays float");
+    }
+  }
+  for (const std::vector<uint32_t>& sets : weightSets(source)) {
+    storeWeightsOf(sets, accessors, notes);
+  }
+  return needs_extension;
+}
+
+// ---- Positions
 
 constexpr int64_t kLastPoint = 65535;
 constexpr int64_t kLastDelta = 32767;
@@ -22,13 +254,6 @@ constexpr std::string_view kMovableNodeExtensions[] = {"KHR_lights_punctual",
                                                        "KHR_node_visibility",
                                                        "KHR_xmp",
                                                        "KHR_xmp_json_ld"};
-
-void visitMember(const Json& map, const char* key, std::vector<uint32_t>& accessors) {
-  uint64_t index = 0;
-  const Json* value = findMember(map, key);
-  if (value != nullptr && asUnsigned(*value, index))
-    accessors.push_back(static_cast<uint32_t>(index));
-}
 
 /// A mesh whose positions may become points of one lattice.
 struct MeshPlan {
@@ -85,21 +310,18 @@ class PositionStore {
   }
 
   void collectMeshes() {
-    for (const Json& mesh : arrayOf(json_, "meshes")) {
-      MeshPlan& plan = meshes_.emplace_back();
-      for (const Json& primitive : arrayOf(mesh, "primitives")) {
-        const Json* map = findMember(primitive, "attributes");
-        if (map != nullptr) visitMember(*map, "POSITION", plan.positions);
-        for (const Json& target : arrayOf(primitive, "targets")) {
-          visitMember(target, "POSITION", plan.deltas);
-        }
+    meshes_.resize(source_.first_primitive_of.size());
+    for (const Primitive& primitive : source_.primitives) {
+      MeshPlan& plan = meshes_[primitive.ref.mesh];
+      for (const auto& [name, target, accessor] : primitive.attributes) {
+        if (name != "POSITION") continue;
+        (target == kNone ? plan.positions : plan.deltas).push_back(accessor);
       }
     }
     const Json& nodes = arrayOf(json_, "nodes");
     for (uint32_t node = 0; node < nodes.size(); ++node) {
       uint64_t mesh = 0;
-      const Json* number = findMember(nodes[node], "mesh");
-      if (number == nullptr || !asUnsigned(*number, mesh) || mesh >= meshes_.size()) continue;
+      if (!asUnsigned(findMember(nodes[node], "mesh"), mesh) || mesh >= meshes_.size()) continue;
       meshes_[mesh].nodes.push_back(node);
     }
   }
@@ -206,9 +428,8 @@ class PositionStore {
   bool takeSkinRoom(const MeshPlan& mesh) {
     std::set<uint64_t> skins;
     for (const uint32_t node : mesh.nodes) {
-      uint64_t number = 0;
-      const Json* skin = findMember((*nodes_)[node], "skin");
-      if (skin != nullptr && asUnsigned(*skin, number)) skins.insert(number);
+      uint64_t skin = 0;
+      if (asUnsigned(findMember((*nodes_)[node], "skin"), skin)) skins.insert(skin);
     }
     for (const uint64_t skin : skins) {
       const uint64_t bytes = kBytesOfJoint * arrayOf((*skins_)[skin], "joints").size();
@@ -282,8 +503,7 @@ class PositionStore {
     for (const uint32_t accessor : mesh.deltas) storePoints(accessor, mesh.lattice, true);
     for (const uint32_t node : mesh.nodes) {
       uint64_t skin = 0;
-      const Json* number = findMember((*nodes_)[node], "skin");
-      if (number != nullptr && asUnsigned(*number, skin)) {
+      if (asUnsigned(findMember((*nodes_)[node], "skin"), skin)) {
         skinned_[skin].push_back({node, mesh.lattice});
       } else {
         moveToChild(node, mesh.lattice);
@@ -391,8 +611,7 @@ class PositionStore {
     std::map<uint64_t, size_t> counts;
     for (const Json& element : arrayOf(json_, array)) {
       uint64_t number = 0;
-      const Json* member = findMember(element, key);
-      if (member != nullptr && asUnsigned(*member, number)) ++counts[number];
+      if (asUnsigned(findMember(element, key), number)) ++counts[number];
     }
     return counts;
   }
@@ -414,8 +633,7 @@ class PositionStore {
   /// Whether the matrices of a skin belong to it alone.
   bool hasOwnMatrices(const Json& skin) const {
     uint64_t accessor = 0;
-    const Json* number = findMember(skin, "inverseBindMatrices");
-    if (number == nullptr || !asUnsigned(*number, accessor)) return false;
+    if (!asUnsigned(findMember(skin, "inverseBindMatrices"), accessor)) return false;
     const auto users = matrix_users_.find(accessor);
     return users != matrix_users_.end() && users->second == 1 && !isForeign(accessor);
   }
@@ -434,8 +652,8 @@ class PositionStore {
       asUnsigned(skin["inverseBindMatrices"], accessor);
     } else {
       uint64_t left = 0;
-      const Json* old = findMember(skin, "inverseBindMatrices");
-      if (in_place && old != nullptr && asUnsigned(*old, left)) --matrix_users_[left];
+      if (in_place && asUnsigned(findMember(skin, "inverseBindMatrices"), left))
+        --matrix_users_[left];
       all_accessors_->push_back({{"componentType", 5126}, {"type", "MAT4"}});
     }
     skin["inverseBindMatrices"] = accessor;
@@ -481,7 +699,7 @@ void storeIntegers(const Document& source, const CodedAttributes& coded, Json& j
                    std::vector<NewView>& views, std::vector<std::string>& notes) {
   IntegerAccessors accessors(source, coded, json, views);
   bool needs_extension = PositionStore(source, accessors, json, views, notes).run();
-  needs_extension |= storeIntegerValues(coded, arrayOf(json, "meshes"), accessors, notes);
+  needs_extension |= storeIntegerValues(source, coded, accessors, notes);
   if (!needs_extension) return;
   addExtensionName(json, "extensionsUsed", "KHR_mesh_quantization");
   addExtensionName(json, "extensionsRequired", "KHR_mesh_quantization");

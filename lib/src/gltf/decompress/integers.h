@@ -4,12 +4,18 @@
 #ifndef MCC_GLTF_DECOMPRESS_INTEGERS_H_
 #define MCC_GLTF_DECOMPRESS_INTEGERS_H_
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
-#include "gltf/decompress/integer_accessors.h"
+#include "gltf/document/layout.h"
+#include "mcc/reader.h"
 
 namespace mcc::gltf {
+
+/// How each decoded accessor was coded, by accessor number. Contains no aliases.
+using CodedAttributes = std::map<uint32_t, AttributeInfo>;
 
 /// Turns decoded float accessors into integers where every value keeps its place, up to the
 /// rounding of the coded grid. Positions become lattice points. The lattice goes into new nodes

@@ -233,6 +233,13 @@ void narrowIndices(std::span<const uint8_t> indices, uint32_t index_bytes, uint8
   }
 }
 
+std::vector<uint8_t> narrowIndices(std::span<const uint32_t> indices, uint32_t index_bytes) {
+  std::vector<uint8_t> bytes(indices.size() * index_bytes);
+  narrowIndices({reinterpret_cast<const uint8_t*>(indices.data()), indices.size_bytes()},
+                index_bytes, bytes.data());
+  return bytes;
+}
+
 AttributeFormat formatOf(const std::string& name, uint32_t target, const Accessor& accessor) {
   AttributeFormat type;
   type.component_type = accessor.component_type;

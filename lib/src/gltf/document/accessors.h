@@ -73,6 +73,7 @@ std::vector<uint8_t> packAttribute(std::span<const uint8_t> tight, const Accesso
 
 /// Stores indices of 32 bits, in the host's order, as ones of `index_bytes`.
 void narrowIndices(std::span<const uint8_t> indices, uint32_t index_bytes, uint8_t* out);
+std::vector<uint8_t> narrowIndices(std::span<const uint32_t> indices, uint32_t index_bytes);
 
 /// Returns the format of an attribute as the payload describes it. A semantic whose accessor does
 /// not have the type glTF 2.0 gives it becomes a custom one.

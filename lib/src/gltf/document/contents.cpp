@@ -68,8 +68,7 @@ class ContentsWalk {
 
   void addNumber(const Json& object, const char* key, bool is_accessor) {
     uint64_t index = 0;
-    const Json* number = findMember(object, key);
-    if (number == nullptr || !asUnsigned(*number, index)) return;
+    if (!asUnsigned(findMember(object, key), index)) return;
     is_accessor ? addAccessor(index) : addView(index);
   }
 

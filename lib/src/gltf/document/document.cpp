@@ -112,7 +112,6 @@ Result fetchUri(const std::string& uri, const std::string& where, const FileRead
   return read_file(path, where, bytes);
 }
 
-/// Loads the buffers. A file that several buffers name is read once.
 /// Returns a path that relativePathOf() has accepted without its parts "." and "..".
 std::string withoutDots(const std::string& path) {
   std::vector<std::string> parts;
@@ -131,6 +130,7 @@ std::string withoutDots(const std::string& path) {
   return joined;
 }
 
+/// Loads the buffers. A file that several buffers name is read once.
 class BufferLoader {
  public:
   /// `glb` is null for a .gltf.
@@ -441,8 +441,7 @@ class UseFinder {
  private:
   Accessor* accessorOf(const Json* number) {
     uint64_t index = 0;
-    const bool exists =
-        number != nullptr && asUnsigned(*number, index) && index < document_.accessors.size();
+    const bool exists = asUnsigned(number, index) && index < document_.accessors.size();
     return exists ? &document_.accessors[index] : nullptr;
   }
 
@@ -518,8 +517,7 @@ class UseFinder {
 
   static bool isOneByte(const Json& view) {
     uint64_t length = 0;
-    const Json* member = findMember(view, "byteLength");
-    if (member == nullptr || !asUnsigned(*member, length) || length != 1) return false;
+    if (!asUnsigned(findMember(view, "byteLength"), length) || length != 1) return false;
     for (const char* key : {"byteStride", "target", "extensions"}) {
       if (findMember(view, key) != nullptr) return false;
     }
@@ -677,8 +675,7 @@ std::set<uint64_t> compressedAccessors(const Json& root) {
 
 bool isAt(const Json& object, const char* key, uint64_t number) {
   uint64_t value = 0;
-  const Json* member = findMember(object, key);
-  return member != nullptr && asUnsigned(*member, value) && value == number;
+  return asUnsigned(findMember(object, key), value) && value == number;
 }
 
 }  // namespace
@@ -709,8 +706,7 @@ bool removeFallback(size_t number, Json& json) {
   for (const uint64_t index : compressed) {
     Json& accessor = (*accessors)[index];
     uint64_t view = 0;
-    const Json* reference = findMember(accessor, "bufferView");
-    if (reference == nullptr || !asUnsigned(*reference, view) || view < view_count) continue;
+    if (!asUnsigned(findMember(accessor, "bufferView"), view) || view < view_count) continue;
     for (const char* key : {"bufferView", "byteOffset", "sparse"}) accessor.erase(key);
   }
   json["bufferViews"].erase(json["bufferViews"].begin() + static_cast<ptrdiff_t>(view_count),

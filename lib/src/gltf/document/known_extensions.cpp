@@ -19,21 +19,17 @@ bool contains(const Names& names, std::string_view name) {
 }
 
 /// Whether an object has no members but these.
-bool hasOnly(const Json& object, const Names& names) {
+bool hasOnly(const Json& object, const Names& names, const Names& others = {}) {
   if (!object.is_object()) return false;
   for (const auto& [key, value] : object.items()) {
-    if (!contains(names, key)) return false;
+    if (!contains(names, key) && !contains(others, key)) return false;
   }
   return true;
 }
 
 /// The same, where any object may also have extras and extensions, which are looked at apart.
 bool hasOnlyWithExtras(const Json& object, const Names& names) {
-  if (!object.is_object()) return false;
-  for (const auto& [key, value] : object.items()) {
-    if (!contains(names, key) && key != "extras" && key != "extensions") return false;
-  }
-  return true;
+  return hasOnly(object, names, {"extras", "extensions"});
 }
 
 /// The members of tables and their properties that the ratified version has. Drafts named buffer
@@ -66,81 +62,6 @@ bool areLineStringsUnderstood(const Json& visibility) {
   });
 }
 
-bool always(const Json&) { return true; }
-
-/// An extension on our list. `is_understood` looks for members that we do not know.
-struct KnownExtension {
-  std::string_view name;
-  bool (*is_understood)(const Json& object);
-};
-
-constexpr KnownExtension kKnownExtensions[] = {
-    {"ADOBE_materials_clearcoat_specular", always},
-    {"ADOBE_materials_clearcoat_tint", always},
-    {"ADOBE_materials_thin_transparency", always},
-    {"BENTLEY_materials_line_style", always},
-    {"BENTLEY_materials_planar_fill", always},
-    {"BENTLEY_materials_point_style", always},
-    {"CESIUM_RTC", always},
-    {"CESIUM_primitive_outline",
-     [](const Json& object) { return hasOnlyWithExtras(object, {"indices"}); }},
-    {"CESIUM_tile_edges",
-     [](const Json& object) {
-       return hasOnlyWithExtras(object, {"left", "bottom", "right", "top"});
-     }},
-    {"EXT_instance_features",
-     [](const Json& object) { return hasOnlyWithExtras(object, {"featureIds"}); }},
-    {"EXT_lights_image_based", always},
-    {"EXT_mesh_features",
-     [](const Json& object) { return hasOnlyWithExtras(object, {"featureIds"}); }},
-    {"EXT_mesh_gpu_instancing", always},
-    {"EXT_mesh_primitive_edge_visibility",
-     [](const Json& object) {
-       return hasOnlyWithExtras(object, {"visibility", "material", "lineStrings", "silhouetteMates",
-                                         "silhouetteNormals"}) &&
-              areLineStringsUnderstood(object);
-     }},
-    {"EXT_meshopt_compression", always},
-    {kMetadataExtension,
-     [](const Json& object) {
-       return hasOnlyWithExtras(object,
-                                {"schema", "schemaUri", "propertyTables", "propertyTextures",
-                                 "propertyAttributes", "propertyTable", "index"}) &&
-              areTablesUnderstood(object);
-     }},
-    {"EXT_texture_avif", always},
-    {"EXT_texture_webp", always},
-    {"KHR_animation_pointer", always},
-    {"KHR_draco_mesh_compression", always},
-    {"KHR_lights_punctual", always},
-    {"KHR_mesh_collapse_compression", always},
-    {"KHR_mesh_quantization", always},
-    {"KHR_meshopt_compression", always},
-    {"KHR_node_hoverability", always},
-    {"KHR_node_selectability", always},
-    {"KHR_node_visibility", always},
-    {"KHR_texture_basisu", always},
-    {"KHR_texture_transform", always},
-    {"KHR_xmp", always},
-    {"KHR_xmp_json_ld", always},
-    {"MSFT_lod", always},
-    {"MSFT_packing_normalRoughnessMetallic", always},
-    {"MSFT_packing_occlusionRoughnessMetallic", always},
-    {"MSFT_texture_dds", always},
-    {"VRM", always},
-    {"VRMC_materials_mtoon", always},
-    {"VRMC_node_constraint", always},
-    {"VRMC_springBone", always},
-    {"VRMC_vrm", always},
-};
-
-const KnownExtension* findKnown(std::string_view name) {
-  const auto found =
-      std::find_if(std::begin(kKnownExtensions), std::end(kKnownExtensions),
-                   [&](const KnownExtension& extension) { return extension.name == name; });
-  return found == std::end(kKnownExtensions) ? nullptr : found;
-}
-
 /// Whether every set of feature ids is an attribute, which moves with its vertices, or a texture.
 /// Without either, the id of a vertex is its number.
 bool hasExplicitIds(const Json& features) {
@@ -159,22 +80,89 @@ bool hasOnlyMetadata(const Json& metadata) {
   return hasOnly(metadata, {"propertyTextures", "propertyAttributes", "propertyTable", "index"});
 }
 
-/// An extension of meshes or primitives that does not depend on the order of vertices and
-/// triangles, at least where `is_order_free` says so.
-struct OrderFreeExtension {
+bool hasOnlyFeatureIds(const Json& object) { return hasOnlyWithExtras(object, {"featureIds"}); }
+bool always(const Json&) { return true; }
+bool never(const Json&) { return false; }
+
+/// An extension on our list.
+struct KnownExtension {
   std::string_view name;
-  bool (*is_order_free)(const Json& object);
+  /// Looks for members that we do not know.
+  bool (*is_understood)(const Json& object) = always;
+  /// Whether an object of meshes or primitives does not depend on the order of vertices and
+  /// triangles.
+  bool (*is_order_free)(const Json& object) = never;
+  bool names_nodes = false;  ///< because of their meshes
 };
 
-constexpr OrderFreeExtension kOrderFreeExtensions[] = {
-    {"EXT_mesh_features", hasExplicitIds},
-    {kMetadataExtension, hasOnlyMetadata},
-    {"KHR_draco_mesh_compression", always},     // removed with the data that it describes
-    {"KHR_materials_variants", always},         // materials of the whole primitive
-    {"KHR_mesh_collapse_compression", always},  // our own
-    {"KHR_xmp", always},                        // names a packet of metadata
-    {"KHR_xmp_json_ld", always},                // the same
+constexpr bool kNamesNodes = true;
+
+constexpr KnownExtension kKnownExtensions[] = {
+    {"ADOBE_materials_clearcoat_specular"},
+    {"ADOBE_materials_clearcoat_tint"},
+    {"ADOBE_materials_thin_transparency"},
+    {"BENTLEY_materials_line_style"},
+    {"BENTLEY_materials_planar_fill"},
+    {"BENTLEY_materials_point_style"},
+    {"CESIUM_RTC"},
+    {"CESIUM_primitive_outline",
+     [](const Json& object) { return hasOnlyWithExtras(object, {"indices"}); }},
+    {"CESIUM_tile_edges",
+     [](const Json& object) {
+       return hasOnlyWithExtras(object, {"left", "bottom", "right", "top"});
+     }},
+    {"EXT_instance_features", hasOnlyFeatureIds},
+    {"EXT_lights_image_based"},
+    {"EXT_mesh_features", hasOnlyFeatureIds, hasExplicitIds},
+    {"EXT_mesh_gpu_instancing"},
+    {"EXT_mesh_primitive_edge_visibility",
+     [](const Json& object) {
+       return hasOnlyWithExtras(object, {"visibility", "material", "lineStrings", "silhouetteMates",
+                                         "silhouetteNormals"}) &&
+              areLineStringsUnderstood(object);
+     }},
+    {"EXT_meshopt_compression"},
+    {kMetadataExtension,
+     [](const Json& object) {
+       return hasOnlyWithExtras(object,
+                                {"schema", "schemaUri", "propertyTables", "propertyTextures",
+                                 "propertyAttributes", "propertyTable", "index"}) &&
+              areTablesUnderstood(object);
+     },
+     hasOnlyMetadata},
+    {"EXT_texture_avif"},
+    {"EXT_texture_webp"},
+    {"KHR_animation_pointer", always, never, kNamesNodes},
+    {"KHR_draco_mesh_compression", always, always},  // removed with the data that it describes
+    {"KHR_lights_punctual"},
+    {"KHR_materials_variants", always, always},         // materials of the whole primitive
+    {"KHR_mesh_collapse_compression", always, always},  // our own
+    {"KHR_mesh_quantization"},
+    {"KHR_meshopt_compression"},
+    {"KHR_node_hoverability"},
+    {"KHR_node_selectability"},
+    {"KHR_node_visibility"},
+    {"KHR_texture_basisu"},
+    {"KHR_texture_transform"},
+    {"KHR_xmp", always, always},          // names a packet of metadata
+    {"KHR_xmp_json_ld", always, always},  // the same
+    {"MSFT_lod", always, never, kNamesNodes},
+    {"MSFT_packing_normalRoughnessMetallic"},
+    {"MSFT_packing_occlusionRoughnessMetallic"},
+    {"MSFT_texture_dds"},
+    {"VRM", always, never, kNamesNodes},
+    {"VRMC_materials_mtoon"},
+    {"VRMC_node_constraint", always, never, kNamesNodes},
+    {"VRMC_springBone", always, never, kNamesNodes},
+    {"VRMC_vrm", always, never, kNamesNodes},
 };
+
+const KnownExtension* findKnown(std::string_view name) {
+  const auto found =
+      std::find_if(std::begin(kKnownExtensions), std::end(kKnownExtensions),
+                   [&](const KnownExtension& extension) { return extension.name == name; });
+  return found == std::end(kKnownExtensions) ? nullptr : found;
+}
 
 /// A member of a primitive's extension that is the number of an accessor.
 struct AccessorMember {
@@ -223,10 +211,8 @@ bool isUnderstood(std::string_view name, const Json& object) {
 }
 
 bool isOrderFree(std::string_view name, const Json& object) {
-  return std::any_of(std::begin(kOrderFreeExtensions), std::end(kOrderFreeExtensions),
-                     [&](const OrderFreeExtension& extension) {
-                       return extension.name == name && extension.is_order_free(object);
-                     });
+  const KnownExtension* known = findKnown(name);
+  return known != nullptr && known->is_order_free(object);
 }
 
 bool isRenumberable(std::string_view name, const Json& object) {
@@ -244,9 +230,8 @@ bool isRenumberable(std::string_view name, const Json& object) {
 }
 
 bool refersToNodes(std::string_view name) {
-  return contains({"KHR_animation_pointer", "MSFT_lod", "VRM", "VRMC_node_constraint",
-                   "VRMC_springBone", "VRMC_vrm"},
-                  name);
+  const KnownExtension* known = findKnown(name);
+  return known != nullptr && known->names_nodes;
 }
 
 void visitExtensionAccessors(const Json& primitive,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <set>
 #include <string>
-#include <tuple>
 
 namespace mcc::gltf {
 namespace {
@@ -93,9 +92,7 @@ class LayoutBuilder {
       if (isMissing(view)) continue;
       live.insert(live.end(), ranges_[view].begin(), ranges_[view].end());
     }
-    std::sort(live.begin(), live.end(), [](const ByteRange& a, const ByteRange& b) {
-      return std::tie(a.buffer, a.begin, a.end) < std::tie(b.buffer, b.begin, b.end);
-    });
+    std::sort(live.begin(), live.end());
     // Runs with gaps smaller than the alignment stay together, so that an untouched buffer does not
     // change.
     const uint64_t alignment = document_.foreign.alignment();
@@ -161,8 +158,8 @@ class LayoutBuilder {
 
   void moveOffset(Json& object, uint64_t old_offset) {
     uint64_t view = 0;
-    if (findMember(object, "bufferView") == nullptr || !asUnsigned(object["bufferView"], view) ||
-        view >= document_.views.size() || ranges_[view].empty() || is_whole_[view]) {
+    if (!asUnsigned(findMember(object, "bufferView"), view) || view >= document_.views.size() ||
+        ranges_[view].empty() || is_whole_[view]) {
       return;
     }
     const BufferView& from = document_.views[view];

@@ -41,7 +41,7 @@ uint64_t outputBytes(const PayloadInfo& info) {
   return bytes;
 }
 
-Status decodePieces(DecodedPayload& decoded, const DecodeOptions& options) {
+Status decodePieces(DecodedPayload& decoded, const mcc::DecodeOptions& options) {
   const std::span<const PieceInfo> infos = decoded.payload.info().pieces;
   std::vector<std::vector<AttributeTarget>> attribute_targets(infos.size());
   std::vector<std::vector<PartTarget>> part_targets(infos.size());
@@ -64,7 +64,7 @@ Status decodePieces(DecodedPayload& decoded, const DecodeOptions& options) {
 }
 
 Result decodePieces(const std::string& where, DecodedPayload& decoded, const RunJobs& run_jobs) {
-  DecodeOptions options;
+  mcc::DecodeOptions options;
   options.run_jobs = runnerOf(run_jobs);
   return toResult(decodePieces(decoded, options), where);
 }

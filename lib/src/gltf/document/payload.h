@@ -59,7 +59,7 @@ uint64_t outputBytes(const PayloadInfo& info);
 Result toResult(const Status& status, const std::string& where);
 
 /// Decodes all pieces of an opened payload.
-Status decodePieces(DecodedPayload& decoded, const DecodeOptions& options = {});
+Status decodePieces(DecodedPayload& decoded, const mcc::DecodeOptions& options = {});
 Result decodePieces(const std::string& where, DecodedPayload& decoded, const RunJobs& run_jobs);
 
 /// Opens a payload and decodes all of it. `bytes` must outlive `decoded`.

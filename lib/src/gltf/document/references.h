@@ -79,8 +79,7 @@ void visitAttributeMaps(const Json& primitive, const Visit& visit) {
 template <typename Visit>
 void visitFilledAccessors(const Json& primitive, const Json& extension, const Visit& visit) {
   uint64_t accessor = 0;
-  const Json* indices = findMember(primitive, "indices");
-  if (indices != nullptr && asUnsigned(*indices, accessor)) visit(accessor);
+  if (asUnsigned(findMember(primitive, "indices"), accessor)) visit(accessor);
   const Json* attribute_ids = findMember(extension, "attributes");
   const Json& target_ids = arrayOf(extension, "targets");
   visitAttributeMaps(primitive, [&](const Json& map, uint32_t target) {
@@ -88,8 +87,7 @@ void visitFilledAccessors(const Json& primitive, const Json& extension, const Vi
     if (target != kNone) ids = target < target_ids.size() ? &target_ids[target] : nullptr;
     if (ids == nullptr || !ids->is_object()) return;
     for (const auto& [name, id] : ids->items()) {
-      const Json* number = findMember(map, name);
-      if (number != nullptr && asUnsigned(*number, accessor)) visit(accessor);
+      if (asUnsigned(findMember(map, name), accessor)) visit(accessor);
     }
   });
 }

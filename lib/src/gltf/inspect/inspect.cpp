@@ -54,10 +54,9 @@ void describeErrors(AttributeInfos attributes, uint32_t index, InspectAttribute&
 void describeAttributes(const PieceInfo& piece, InspectPiece& row) {
   const auto count = static_cast<uint32_t>(piece.attributes.size());
   row.attributes.assign(piece.attributes.begin(), piece.attributes.end());
-  row.attribute_names.assign(count, "(unused)");
   for (uint32_t i = 0; i < count; ++i) {
     InspectAttribute details;
-    details.name = row.attribute_names[i];
+    details.name = "(unused)";
     details.predictor = predictorName(row.attributes, i);
     describeErrors(row.attributes, i, details);
     row.details.push_back(std::move(details));
@@ -70,7 +69,7 @@ class StreamCounter {
   explicit StreamCounter(InspectPayload& report) : report_(report) {}
 
   Result run(DecodedPayload& decoded, const std::string& where) {
-    DecodeOptions options;
+    mcc::DecodeOptions options;
     options.histogram = &report_.codes;
     options.stage_bits = [](void* user, uint32_t piece, DecodeStage stage, uint32_t attribute,
                             uint64_t bits) {
@@ -160,9 +159,7 @@ Result inspectView(const Document& document, uint32_t view,
     MCC_GLTF_TRY(checkAgainstPayload(document, *use, info));
     report.primitives.push_back(primitivePath(use->mesh, use->primitive));
     for (const auto& attribute : use->attributes) {
-      InspectPiece& piece = report.pieces[use->piece];
-      piece.attribute_names[attribute.id] = primitiveLabel(attribute);
-      piece.details[attribute.id].name = primitiveLabel(attribute);
+      report.pieces[use->piece].details[attribute.id].name = primitiveLabel(attribute);
     }
   }
   if (!count_codes) return {};
@@ -180,10 +177,8 @@ Result inspectBytes(std::span<const uint8_t> source, const FileReader& read_file
   for (const Json& name : arrayOf(document.json, "extensionsUsed")) {
     if (name.is_string()) report.extensions_used.push_back(name.get<std::string>());
   }
-  for (const Json& mesh : arrayOf(document.json, "meshes")) {
-    ++report.mesh_count;
-    report.primitive_count += static_cast<uint32_t>(arrayOf(mesh, "primitives").size());
-  }
+  report.mesh_count = static_cast<uint32_t>(document.first_primitive_of.size());
+  report.primitive_count = static_cast<uint32_t>(document.primitives.size());
   std::vector<ExtensionUse> uses;
   MCC_GLTF_TRY(findExtensionUses(document, uses));
   DecodedBytes decoded(0, document.source_bytes);

@@ -95,12 +95,12 @@ Json optionsJson(const ConvertOptions& options) {
           {"keep_triangle_order", options.keep_triangle_order},
           {"grid", kGrids[static_cast<size_t>(options.grid)]},
           {"prefer", kPreferences[static_cast<size_t>(options.prefer)]},
-          {"quantize_position", options.bits.position},
-          {"quantize_normal", options.bits.normal},
-          {"quantize_texcoord", options.bits.texcoord},
-          {"quantize_color", options.bits.color},
-          {"quantize_tangent", options.bits.tangent},
-          {"quantize_weight", options.bits.weight}};
+          {"position_bits", options.position_bits},
+          {"normal_bits", options.normal_bits},
+          {"texcoord_bits", options.texcoord_bits},
+          {"color_bits", options.color_bits},
+          {"tangent_bits", options.tangent_bits},
+          {"weight_bits", options.weight_bits}};
 }
 
 std::string codingName(AttributeCoding coding, uint32_t bits) {

@@ -11,6 +11,9 @@ export const LAUNCH_OPTIONS = {
     '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
 };
 
+/** How long a page may take on a busy machine. It ends what hangs, and judges no speed. */
+const PATIENCE_MS = 180_000;
+
 /** A browser for this process, or the one of shared_browser.mjs, of which close() ends only what this process has opened. */
 export function launchBrowser() {
   if (process.env.MCC_BROWSER) return chromium.connect(JSON.parse(readFileSync(process.env.MCC_BROWSER)).endpoint);
@@ -27,9 +30,9 @@ export async function openPage(browser, url, isReady) {
   const messages = [];
   page.on('console', (message) => messages.push(`${message.type()}: ${message.text()}`));
   page.on('pageerror', (error) => messages.push(`error: ${error.message}`));
-  await page.goto(url);
+  await page.goto(url, { timeout: PATIENCE_MS });
   try {
-    await page.waitForFunction(isReady, undefined, { timeout: 60_000 });
+    await page.waitForFunction(isReady, undefined, { timeout: PATIENCE_MS });
   } catch (error) {
     throw new Error(`${url} did not get ready: ${messages.join('\n')}`, { cause: error });
   }

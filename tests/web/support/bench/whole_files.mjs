@@ -37,8 +37,11 @@ const TOOLS = {
 };
 export const TOOL_NAMES = Object.keys(TOOLS);
 
-/** @returns {Promise<Map<string, Uint8Array>>} the file of each tool */
-export async function wholeFiles(path) {
+/**
+ * @param {string[]} [names] of tools
+ * @returns {Promise<Map<string, Uint8Array>>} the file of each tool
+ */
+export async function wholeFiles(path, names = TOOL_NAMES) {
   await Promise.all([MeshoptDecoder.ready, MeshoptEncoder.ready]);
   const io = new NodeIO().setLogger(new Logger(Logger.Verbosity.ERROR)).registerExtensions(ALL_EXTENSIONS).registerDependencies({
     'draco3d.decoder': await draco3d.createDecoderModule(),
@@ -48,7 +51,7 @@ export async function wholeFiles(path) {
   });
   const source = new Uint8Array(readFileSync(path));
   const files = new Map();
-  for (const [name, make] of Object.entries(TOOLS)) files.set(name, await make(source, io));
+  for (const name of names) files.set(name, await TOOLS[name](source, io));
   return files;
 }
 

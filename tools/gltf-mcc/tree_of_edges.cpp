@@ -1,7 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-//
-// Returns the mc-tree of a primitive: that of its payload, or that of a payload made for this
-// purpose.
+#include "tree_of_edges.h"
+
 #include <algorithm>
 
 #include "gltf/decompress/coded_input.h"
@@ -11,12 +10,12 @@
 #include "gltf/files/file_io.h"
 #include "gltf/files/named_file.h"
 #include "host/parallel.h"
-#include "mcc/files.h"
-#include "mcc/glb.h"
 #include "mcc/writer.h"
 
-namespace mcc::gltf {
+namespace mcc::tool {
 namespace {
+
+using namespace gltf;
 
 /// Collects the mc-edges of one piece in decoding order, while a payload is decoded.
 struct EdgeTaker {
@@ -42,15 +41,18 @@ std::vector<McTree::Edge> inCollapseOrder(std::vector<McTree::Edge> edges, size_
   return edges;
 }
 
-Result readPositions(const Document& document, uint64_t accessor_index, const std::string& where,
+/// Reads POSITION of a primitive.
+Result readPositions(const Document& document, const Primitive& primitive,
                      std::vector<float>& positions) {
-  if (accessor_index >= document.accessors.size()) {
-    return error(where, "there is no accessor " + std::to_string(accessor_index));
-  }
-  const uint32_t index = static_cast<uint32_t>(accessor_index);
-  const Accessor& accessor = document.accessors[index];
+  const std::string where = primitive.ref.path();
+  const auto found =
+      std::find_if(primitive.attributes.begin(), primitive.attributes.end(),
+                   [](const auto& a) { return a.target == kNone && a.name == "POSITION"; });
+  if (found == primitive.attributes.end()) return error(where, "has no POSITION");
+  if (found->accessor == kNone) return primitive.fault;
   AccessorData elements;
-  MCC_GLTF_TRY(readAccessor(document, index, elements));
+  MCC_GLTF_TRY(readAccessor(document, found->accessor, elements));
+  const Accessor& accessor = document.accessors[found->accessor];
   if (accessor.componentCount() != 3)
     return error(where, "POSITION does not have three components");
   const uint32_t bytes = componentBytes(accessor.component_type);
@@ -64,27 +66,16 @@ Result readPositions(const Document& document, uint64_t accessor_index, const st
   return {};
 }
 
-/// Finds the accessor of a primitive's POSITION.
-Result positionAccessor(const Json& primitive, const std::string& where, uint64_t& accessor) {
-  const Json* attributes = findMember(primitive, "attributes");
-  const Json* position = attributes == nullptr ? nullptr : findMember(*attributes, "POSITION");
-  if (position == nullptr || !asUnsigned(*position, accessor)) {
-    return error(where, "has no POSITION");
-  }
-  return {};
-}
-
 /// Makes the tree of a primitive with a payload. It is the tree of the whole piece, which may hold
 /// other primitives, too.
-Result treeOfPayload(const Document& document, const ExtensionUse& use, const Json& primitive,
-                     McTree& tree) {
+Result treeOfPayload(const Document& document, const ExtensionUse& use, McTree& tree) {
   const std::string where = use.path + "/bufferView";
   DecodedPayload decoded;
   MCC_GLTF_TRY(toResult(decoded.payload.open(payloadBytes(document, use.view)), where));
   MCC_GLTF_TRY(checkAgainstPayload(document, use, decoded.payload.info()));
   EdgeTaker taker;
   taker.wanted_piece = static_cast<uint32_t>(use.piece);
-  DecodeOptions options;
+  mcc::DecodeOptions options;
   options.mc_edge = EdgeTaker::take;
   options.mc_edge_user = &taker;
   MCC_GLTF_TRY(toResult(decodePieces(decoded, options), where));
@@ -103,25 +94,22 @@ Result treeOfPayload(const Document& document, const ExtensionUse& use, const Js
     }
     return {};
   }
-  uint64_t accessor = 0;
-  MCC_GLTF_TRY(positionAccessor(primitive, use.path, accessor));
-  MCC_GLTF_TRY(readPositions(document, accessor, use.path, tree.positions));
+  MCC_GLTF_TRY(
+      readPositions(document, document.primitive({use.mesh, use.primitive}), tree.positions));
   const bool is_whole = tree.positions.size() == size_t{3} * info.wedge_count;
   return is_whole ? Result{} : error(use.path, "POSITION does not have the payload's vertices");
 }
 
-Result readTriangles(const Document& document, const Json& primitive, const std::string& where,
-                     size_t vertex_count, std::vector<uint32_t>& triangles) {
+Result readTriangles(const Document& document, const Primitive& primitive, size_t vertex_count,
+                     std::vector<uint32_t>& triangles) {
+  const std::string where = primitive.ref.path();
   uint64_t mode = 4;
-  MCC_GLTF_TRY(readOptionalUnsigned(primitive, "mode", where, 6, mode));
+  MCC_GLTF_TRY(readOptionalUnsigned(*primitive.json, "mode", where, 6, mode));
   if (mode < 4) return error(where, "has points or lines, not triangles");
-  if (findMember(primitive, "indices") != nullptr) {
-    uint64_t index = 0;
-    MCC_GLTF_TRY(readUnsigned(primitive, "indices", where, kNone, index));
-    if (index >= document.accessors.size()) {
-      return error(at(where, "indices"), "there is no accessor " + std::to_string(index));
-    }
-    MCC_GLTF_TRY(readIndices(document, static_cast<uint32_t>(index), triangles));
+  if (primitive.indices != kNone) {
+    MCC_GLTF_TRY(readIndices(document, primitive.indices, triangles));
+  } else if (findMember(*primitive.json, "indices") != nullptr) {
+    return primitive.fault;
   } else {
     for (uint32_t i = 0; i < vertex_count; ++i) triangles.push_back(i);
   }
@@ -132,14 +120,12 @@ Result readTriangles(const Document& document, const Json& primitive, const std:
 }
 
 /// Makes the tree of any other primitive: its triangles are encoded in memory and decoded again.
-Result treeOfTriangles(const Document& document, const Json& primitive, const std::string& where,
-                       McTree& tree) {
-  uint64_t accessor = 0;
-  MCC_GLTF_TRY(positionAccessor(primitive, where, accessor));
-  MCC_GLTF_TRY(readPositions(document, accessor, where, tree.positions));
+Result treeOfTriangles(const Document& document, const Primitive& primitive, McTree& tree) {
+  const std::string where = primitive.ref.path();
+  MCC_GLTF_TRY(readPositions(document, primitive, tree.positions));
   std::vector<uint32_t> triangles;
   const size_t vertex_count = tree.positions.size() / 3;
-  MCC_GLTF_TRY(readTriangles(document, primitive, where, vertex_count, triangles));
+  MCC_GLTF_TRY(readTriangles(document, primitive, vertex_count, triangles));
   const AttributeView position{{}, tree.positions.data(), 3 * sizeof(float)};
   const PartView part{triangles};
   const PieceView piece{static_cast<uint32_t>(vertex_count), {&position, 1}, {&part, 1}};
@@ -151,7 +137,7 @@ Result treeOfTriangles(const Document& document, const Json& primitive, const st
   DecodedPayload decoded;
   MCC_GLTF_TRY(toResult(decoded.payload.open(encoded.payload), where));
   EdgeTaker taker;
-  DecodeOptions options;
+  mcc::DecodeOptions options;
   options.mc_edge = EdgeTaker::take;
   options.mc_edge_user = &taker;
   MCC_GLTF_TRY(toResult(decodePieces(decoded, options), where));
@@ -160,57 +146,52 @@ Result treeOfTriangles(const Document& document, const Json& primitive, const st
   return {};
 }
 
-Result findPrimitive(const Document& document, uint32_t mesh, uint32_t primitive,
-                     const Json*& json) {
+/// Checks that there is such a primitive.
+Result checkRef(const Document& document, const PrimitiveRef& ref) {
   const Json& meshes = arrayOf(document.json, "meshes");
   if (meshes.empty()) return error("", "the file has no meshes");
-  if (mesh >= meshes.size()) {
-    return error("", "there is no mesh " + std::to_string(mesh) + "; the last is " +
+  if (ref.mesh >= meshes.size()) {
+    return error("", "there is no mesh " + std::to_string(ref.mesh) + "; the last is " +
                          std::to_string(meshes.size() - 1));
   }
-  const Json& primitives = arrayOf(meshes[mesh], "primitives");
-  if (primitive >= primitives.size()) {
-    return error(at("/meshes", mesh), "there is no primitive " + std::to_string(primitive) +
-                                          "; there are " + std::to_string(primitives.size()));
-  }
-  json = &primitives[primitive];
-  return {};
+  const size_t count = arrayOf(meshes[ref.mesh], "primitives").size();
+  if (ref.primitive < count) return {};
+  return error(at("/meshes", ref.mesh), "there is no primitive " + std::to_string(ref.primitive) +
+                                            "; there are " + std::to_string(count));
 }
 
-Result findTree(std::span<const uint8_t> source, const FileReader& read_file, uint32_t mesh,
-                uint32_t primitive, const ForeignDecoders& decoders, McTree& tree) {
+Result findTree(std::span<const uint8_t> source, const FileReader& read_file,
+                const PrimitiveRef& ref, const ForeignDecoders& decoders, McTree& tree) {
   tree = {};
   Document document;
   MCC_GLTF_TRY(loadDocument(source, read_file, document));
   document.decoded = DecodedBytes(0, document.source_bytes);
   MCC_GLTF_TRY(decodeViews(decoders, document));
   MCC_GLTF_TRY(decodeMeshes(decoders, document));
-  const Json* json = nullptr;
-  MCC_GLTF_TRY(findPrimitive(document, mesh, primitive, json));
+  MCC_GLTF_TRY(checkRef(document, ref));
   std::vector<ExtensionUse> uses;
   MCC_GLTF_TRY(findExtensionUses(document, uses));
   for (const ExtensionUse& use : uses) {
-    if (use.mesh == mesh && use.primitive == primitive) {
+    if (use.mesh == ref.mesh && use.primitive == ref.primitive) {
       tree.is_of_payload = true;
-      return treeOfPayload(document, use, *json, tree);
+      return treeOfPayload(document, use, tree);
     }
   }
-  return treeOfTriangles(document, *json, primitivePath(mesh, primitive), tree);
+  return treeOfTriangles(document, document.primitive(ref), tree);
 }
 
 }  // namespace
 
-Result mcTree(const Source& source, uint32_t mesh, uint32_t primitive,
-              const ForeignDecoders& decoders, McTree& tree) {
-  return guarded([&]() -> Result {
-    if (source.bytes) {
-      return findTree(*source.bytes, nullptr, mesh, primitive, decoders, tree);
-    }
+gltf::Result mcTree(const gltf::Source& source, uint32_t mesh, uint32_t primitive,
+                    const gltf::ForeignDecoders& decoders, McTree& tree) {
+  return gltf::guarded([&]() -> gltf::Result {
+    const gltf::PrimitiveRef ref = {mesh, primitive};
+    if (source.bytes) return findTree(*source.bytes, nullptr, ref, decoders, tree);
     std::vector<uint8_t> bytes;
-    MCC_GLTF_TRY(readFile(source.path, bytes));
-    return inFile(source.path, findTree(bytes, readerOf(source.path.parent_path()), mesh, primitive,
-                                        decoders, tree));
+    MCC_GLTF_TRY(gltf::readFile(source.path, bytes));
+    const gltf::FileReader reader = gltf::readerOf(source.path.parent_path());
+    return gltf::inFile(source.path, findTree(bytes, reader, ref, decoders, tree));
   });
 }
 
-}  // namespace mcc::gltf
+}  // namespace mcc::tool

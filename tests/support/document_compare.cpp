@@ -1,5 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-#include "documents/compare.h"
+#include "support/document_compare.h"
 
 #include <algorithm>
 #include <array>
@@ -11,6 +11,9 @@
 #include <set>
 #include <stdexcept>
 #include <unordered_map>
+
+#include "support/gltf_builder.h"
+#include "support/triangles.h"
 
 namespace mcc::gltf::test {
 namespace {
@@ -58,19 +61,7 @@ void compareJson(const Json& a, const Json& b, const std::string& path, const Sk
 // ---- Values ------------------------------------------------------------------------------------
 
 double component(const Elements& elements, size_t i, size_t c) {
-  const char* bytes = elements.values[i].data();
-  const auto as = [&](auto typed) {
-    std::memcpy(&typed, bytes + c * sizeof typed, sizeof typed);
-    return static_cast<double>(typed);
-  };
-  switch (elements.component_type) {
-    case 5120: return as(int8_t{});
-    case 5121: return as(uint8_t{});
-    case 5122: return as(int16_t{});
-    case 5123: return as(uint16_t{});
-    case 5125: return as(uint32_t{});
-    default: return as(float{});
-  }
+  return componentAt(static_cast<int>(elements.component_type), elements.values[i].data(), c);
 }
 
 struct Box {
@@ -161,23 +152,17 @@ bool isWithin(const Attribute& attribute, size_t s, size_t d) {
   }
   if (is_near && bound.distance != 0) is_near = std::sqrt(square) <= bound.distance * (1 + 1e-9);
   if (is_near || bound.radians == 0) return is_near;
-  double dot = 0, cross = 0;
-  double a[3], b[3];
+  std::array<double, 3> a, b;
   for (uint32_t c = 0; c < 3; ++c) a[c] = component(source, s, c), b[c] = component(decoded, d, c);
-  for (uint32_t c = 0; c < 3; ++c) {
-    const double part = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
-    dot += a[c] * b[c];
-    cross += part * part;
-  }
   const bool has_sign =
       source.component_count < 4 || (component(source, s, 3) < 0) == (component(decoded, d, 3) < 0);
-  return has_sign && std::atan2(std::sqrt(cross), dot) <= bound.radians;
+  return has_sign && mcc::test::angleBetween(a, b) <= bound.radians;
 }
 
 // ---- Primitives --------------------------------------------------------------------------------
 
-std::vector<uint32_t> trianglesOf(const PlainDocument& document, const Json& primitive,
-                                  size_t vertex_count) {
+std::vector<uint32_t> cornersOf(const PlainDocument& document, const Json& primitive,
+                                size_t vertex_count) {
   std::vector<uint32_t> vertices;
   if (const Json& indices = memberOf(primitive, "indices"); !indices.is_null()) {
     const Elements elements = document.elements(numberOf(indices));
@@ -189,7 +174,7 @@ std::vector<uint32_t> trianglesOf(const PlainDocument& document, const Json& pri
   }
   for (const uint32_t vertex : vertices) require(vertex < vertex_count, "an index is out of range");
   const uint64_t mode = numberOf(primitive, "mode", 4);
-  if (mode == 4) return vertices;
+  if (mode <= 4) return vertices;
   std::vector<uint32_t> triangles;
   for (size_t i = 0; i + 2 < vertices.size(); ++i) {
     if (mode == 5) {  // 3.7.2.1: p_i = {v_i, v_(i + 1 + i % 2), v_(i + 2 - i % 2)}
@@ -200,24 +185,6 @@ std::vector<uint32_t> trianglesOf(const PlainDocument& document, const Json& pri
     }
   }
   return triangles;
-}
-
-std::vector<std::array<uint32_t, 3>> listOf(const std::vector<uint32_t>& indices,
-                                            const std::vector<uint32_t>& number_of) {
-  std::vector<std::array<uint32_t, 3>> triangles;
-  for (size_t i = 0; i + 2 < indices.size(); i += 3) {
-    triangles.push_back(
-        {number_of[indices[i]], number_of[indices[i + 1]], number_of[indices[i + 2]]});
-  }
-  return triangles;
-}
-
-void normalize(std::vector<std::array<uint32_t, 3>>& triangles) {
-  for (auto& [a, b, c] : triangles) {
-    const auto least = std::min({std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}});
-    a = least[0], b = least[1], c = least[2];
-  }
-  std::sort(triangles.begin(), triangles.end());
 }
 
 class Sets {
@@ -335,18 +302,89 @@ void compareVertices(const std::vector<Attribute>& attributes, bool keeps_order,
     require(balance == 0, "a vertex is there more often or less often");
 }
 
+/// A primitive and the document that it is in.
+struct PlacedPrimitive {
+  const PlainDocument& document;
+  const Json& json;
+};
+
+std::vector<Attribute> attributesOf(const PlacedPrimitive& source, const PlacedPrimitive& decoded) {
+  std::vector<Attribute> attributes;
+  const auto addMap = [&](const Json& a, const Json& b, int target) {
+    require(a.size() == b.size(), "another number of attributes");
+    for (const auto& [name, number] : a.items()) {
+      Attribute attribute;
+      attribute.name = name;
+      attribute.target = target;
+      const Json& other = memberOf(b, name.c_str());
+      require(!other.is_null(), attribute.label() + " is missing");
+      attribute.source = source.document.elements(numberOf(number));
+      attribute.decoded = decoded.document.elements(numberOf(other));
+      require(attribute.source.sameFormat(attribute.decoded),
+              attribute.label() + " has another type");
+      require(attribute.source.values.size() == attribute.decoded.values.size(),
+              attribute.label() + " has another count");
+      attributes.push_back(std::move(attribute));
+    }
+  };
+  addMap(memberOf(source.json, "attributes"), memberOf(decoded.json, "attributes"), -1);
+  const Json& targets = memberOf(source.json, "targets");
+  const Json& decoded_targets = memberOf(decoded.json, "targets");
+  require(targets.size() == decoded_targets.size(), "another number of targets");
+  for (size_t i = 0; i < targets.size(); ++i)
+    addMap(targets[i], decoded_targets[i], static_cast<int>(i));
+  require(!attributes.empty(), "has no attributes");
+  return attributes;
+}
+
+/// Compares triangles over vertices that are equal within the attributes' bounds.
+void compareTriangles(const PlacedPrimitive& source, const PlacedPrimitive& decoded,
+                      const std::vector<Attribute>& attributes, bool keeps_vertices,
+                      bool keeps_triangles) {
+  std::vector<uint32_t> class_of_source, class_of_decoded;
+  compareVertices(attributes, keeps_vertices, class_of_source, class_of_decoded);
+  const size_t count = attributes[0].source.values.size();
+  const auto listOf = [&](const PlacedPrimitive& primitive, const std::vector<uint32_t>& class_of) {
+    return mcc::test::trianglesOf(cornersOf(primitive.document, primitive.json, count),
+                                  [&](uint32_t vertex) { return class_of[vertex]; });
+  };
+  const auto triangles = listOf(source, class_of_source);
+  const auto decoded_triangles = listOf(decoded, class_of_decoded);
+  require(triangles.size() == decoded_triangles.size(), "another number of triangles");
+  if (keeps_triangles)
+    require(triangles == decoded_triangles, "the order of triangles differs");
+  else
+    require(mcc::test::sorted(triangles) == mcc::test::sorted(decoded_triangles),
+            "the triangles differ");
+}
+
+/// The same where nothing may differ. Points and lines are in their order in any case.
+void comparePrimitives(const PlacedPrimitive& source, const PlacedPrimitive& decoded,
+                       bool keeps_order) {
+  const std::vector<Attribute> attributes = attributesOf(source, decoded);
+  const bool has_triangles = numberOf(source.json, "mode", 4) >= 4;
+  if (!has_triangles) {
+    const size_t count = attributes[0].source.values.size();
+    require(cornersOf(source.document, source.json, count) ==
+                cornersOf(decoded.document, decoded.json, count),
+            "the indices differ");
+  }
+  compareTriangles(source, decoded, attributes, keeps_order || !has_triangles,
+                   keeps_order || !has_triangles);
+}
+
 // ---- Documents ---------------------------------------------------------------------------------
 
 class Comparison {
  public:
   Comparison(const PlainDocument& source, const PlainDocument& converted,
-             const PlainDocument& decoded, const RandomDocument& document,
+             const PlainDocument& decoded, const ConvertOptions& options, const KeptNumbers& kept,
              const ConvertReport& report)
       : source_(source),
         converted_(converted),
         decoded_(decoded),
-        document_(document),
-        options_(document.options),
+        options_(options),
+        kept_(kept),
         report_(report) {}
 
   void run() {
@@ -386,7 +424,7 @@ class Comparison {
   /// Accessors that nothing but compressed primitives uses may change.
   void findUses() {
     const Json& meshes = memberOf(source_.json, "meshes");
-    std::set<uint64_t> others(document_.kept_accessors.begin(), document_.kept_accessors.end());
+    std::set<uint64_t> others(kept_.accessors.begin(), kept_.accessors.end());
     for (size_t mesh = 0; mesh < meshes.size(); ++mesh) {
       for (size_t i = 0; i < memberOf(meshes[mesh], "primitives").size(); ++i) {
         const auto accessors = accessorsOf(primitiveOf(source_, mesh, i));
@@ -501,7 +539,7 @@ class Comparison {
       require(source.values == decoded_.elements(i).values,
               "/accessors/" + std::to_string(i) + ": an element changed");
     }
-    for (const uint32_t view : document_.kept_views) {
+    for (const uint32_t view : kept_.views) {
       for (const PlainDocument* document : {&converted_, &decoded_}) {
         require(document->viewBytes(view) == source_.viewBytes(view),
                 "/bufferViews/" + std::to_string(view) + ": the bytes changed");
@@ -513,40 +551,12 @@ class Comparison {
                 "/images/" + std::to_string(i) + ": the bytes changed");
       }
     }
-    for (const uint32_t accessor : document_.kept_accessors) {
+    for (const uint32_t accessor : kept_.accessors) {
       if (source_.isHeldByDraco(accessor)) continue;
       require(source_.elements(accessor).values == converted_.elements(accessor).values,
               "/accessors/" + std::to_string(accessor) +
                   ": changed, though something unknown refers to it");
     }
-  }
-
-  std::vector<Attribute> attributesOf(const Json& source, const Json& decoded) const {
-    std::vector<Attribute> attributes;
-    const auto addMap = [&](const Json& a, const Json& b, int target) {
-      require(a.size() == b.size(), "another number of attributes");
-      for (const auto& [name, number] : a.items()) {
-        Attribute attribute;
-        attribute.name = name;
-        attribute.target = target;
-        const Json& other = memberOf(b, name.c_str());
-        require(!other.is_null(), attribute.label() + " is missing");
-        attribute.source = source_.elements(numberOf(number));
-        attribute.decoded = decoded_.elements(numberOf(other));
-        require(attribute.source.sameFormat(attribute.decoded),
-                attribute.label() + " has another type");
-        require(attribute.source.values.size() == attribute.decoded.values.size(),
-                attribute.label() + " has another count");
-        attributes.push_back(std::move(attribute));
-      }
-    };
-    addMap(memberOf(source, "attributes"), memberOf(decoded, "attributes"), -1);
-    const Json& targets = memberOf(source, "targets");
-    const Json& decoded_targets = memberOf(decoded, "targets");
-    require(targets.size() == decoded_targets.size(), "another number of targets");
-    for (size_t i = 0; i < targets.size(); ++i)
-      addMap(targets[i], decoded_targets[i], static_cast<int>(i));
-    return attributes;
   }
 
   uint32_t payloadOf(size_t mesh, size_t primitive) const {
@@ -588,7 +598,7 @@ class Comparison {
     Box own;
     own.add(source);
     if (!own.is_finite) return bound;
-    const QuantizationBits& bits = options_.bits;
+    const QuantizationBits& bits = options_;
     const auto allow = [&](double value) {
       bound.is_exact = false;
       bound.value = value + std::ldexp(own.largest() + own.side(), -22);
@@ -597,15 +607,16 @@ class Comparison {
         options_.position_lattice ? options_.position_lattice->step
         : options_.max_position_error > 0
             ? 2 * options_.max_position_error * (options_.is_error_relative ? positions.side() : 1)
-        : bits.position == 0 ? 0
-                             : positions.side() / stepsOf(bits.position);
+        : bits.position_bits == 0 ? 0
+                                  : positions.side() / stepsOf(bits.position_bits);
     const bool is_vector = source.type == "VEC3";
     if (attribute.name == "POSITION" && is_vector) {
       // The deltas of exact positions may have a lattice of their own.
-      const double delta_step =
-          is_base || bits.position == 0 ? 0 : std::max(own.side(), 1.0) / stepsOf(bits.position);
+      const double delta_step = is_base || bits.position_bits == 0
+                                    ? 0
+                                    : std::max(own.side(), 1.0) / stepsOf(bits.position_bits);
       const double step = std::max(position_step, delta_step);
-      if (step == 0 && (bits.position == 0 || !is_base))
+      if (step == 0 && (bits.position_bits == 0 || !is_base))
         return bound;  // otherwise all are one point
       // Decoding rounds twice, relative to the lattice's origin.
       const double origin = options_.position_lattice ? 2 : 0;
@@ -613,32 +624,34 @@ class Comparison {
       if (options_.max_position_error > 0 && !options_.position_lattice && is_base)
         bound.distance = position_step / 2;
       if (bound.distance != 0) bound.value = bound.distance;
-    } else if (attribute.name == "NORMAL" && is_vector && bits.normal != 0) {
-      allow((is_base ? own.side() / 2 : 1) / stepsOf(bits.normal));
-      if (is_base) bound.radians = 4.5 / (std::ldexp(1.0, bits.normal) - 2) + 1e-5;
-    } else if (attribute.name == "TANGENT" && bits.tangent != 0 &&
+    } else if (attribute.name == "NORMAL" && is_vector && bits.normal_bits != 0) {
+      allow((is_base ? own.side() / 2 : 1) / stepsOf(bits.normal_bits));
+      if (is_base) bound.radians = 4.5 / (std::ldexp(1.0, bits.normal_bits) - 2) + 1e-5;
+    } else if (attribute.name == "TANGENT" && bits.tangent_bits != 0 &&
                (is_vector || source.type == "VEC4")) {
-      allow(is_base ? std::ldexp(1.0, -bits.tangent) : 1 / stepsOf(bits.tangent));
+      allow(is_base ? std::ldexp(1.0, -bits.tangent_bits) : 1 / stepsOf(bits.tangent_bits));
       const bool has_lossy_normal =
-          bits.normal != 0 && std::any_of(all.begin(), all.end(), [](const Attribute& other) {
+          bits.normal_bits != 0 && std::any_of(all.begin(), all.end(), [](const Attribute& other) {
             return other.name == "NORMAL" && other.target < 0 &&
                    other.source.component_type == 5126;
           });
       if (is_base) {
         // The angle around a normal on the octahedral grid or, without a normal, a grid of its own.
-        const double own_grid = 4.5 / (std::ldexp(1.0, bits.tangent) - 2);
+        const double own_grid = 4.5 / (std::ldexp(1.0, bits.tangent_bits) - 2);
         const double around_normal =
-            std::numbers::pi * std::ldexp(1.0, -bits.tangent) + 0.004 +
-            (has_lossy_normal ? 4.5 / (std::ldexp(1.0, bits.normal) - 2) : 0);
+            std::numbers::pi * std::ldexp(1.0, -bits.tangent_bits) + 0.004 +
+            (has_lossy_normal ? 4.5 / (std::ldexp(1.0, bits.normal_bits) - 2) : 0);
         bound.radians = std::max(own_grid, around_normal);
       }
-    } else if (isNamed(attribute.name, "TEXCOORD") && source.type == "VEC2" && bits.texcoord != 0) {
-      allow(std::max(own.side(), is_base ? 0 : 1.0) / stepsOf(bits.texcoord) / 2);
+    } else if (isNamed(attribute.name, "TEXCOORD") && source.type == "VEC2" &&
+               bits.texcoord_bits != 0) {
+      allow(std::max(own.side(), is_base ? 0 : 1.0) / stepsOf(bits.texcoord_bits) / 2);
     } else if (isNamed(attribute.name, "COLOR") &&
-               (source.type == "VEC3" || source.type == "VEC4") && bits.color != 0) {
-      allow(std::max(own.side(), 1.0) / stepsOf(bits.color) / 2);
-    } else if (isNamed(attribute.name, "WEIGHTS") && source.type == "VEC4" && bits.weight != 0) {
-      allow(std::max(own.side(), 1.0) / stepsOf(bits.weight));
+               (source.type == "VEC3" || source.type == "VEC4") && bits.color_bits != 0) {
+      allow(std::max(own.side(), 1.0) / stepsOf(bits.color_bits) / 2);
+    } else if (isNamed(attribute.name, "WEIGHTS") && source.type == "VEC4" &&
+               bits.weight_bits != 0) {
+      allow(std::max(own.side(), 1.0) / stepsOf(bits.weight_bits));
     }
     return bound;
   }
@@ -666,8 +679,7 @@ class Comparison {
     const Json& source = primitiveOf(source_, mesh, i);
     const Json& decoded = primitiveOf(decoded_, mesh, i);
     require(numberOf(decoded, "mode", 4) == 4, "is no triangle list");
-    std::vector<Attribute> attributes = attributesOf(source, decoded);
-    require(!attributes.empty(), "has no attributes");
+    std::vector<Attribute> attributes = attributesOf({source_, source}, {decoded_, decoded});
     const uint32_t payload = payloadOf(mesh, i);
     const bool was_compressed = payload == kNone;  // by the author of the source
     const Box positions = was_compressed ? Box{} : boxOfPayload(payload);
@@ -676,18 +688,8 @@ class Comparison {
       attribute.bound = askedFor(attribute, attributes, positions);
       tighten(payload, attribute);
     }
-    std::vector<uint32_t> class_of_source, class_of_decoded;
-    const bool keeps_order = options_.keep_vertex_order;
-    compareVertices(attributes, keeps_order, class_of_source, class_of_decoded);
-    const size_t count = attributes[0].source.values.size();
-    auto triangles = listOf(trianglesOf(source_, source, count), class_of_source);
-    auto decoded_triangles = listOf(trianglesOf(decoded_, decoded, count), class_of_decoded);
-    require(triangles.size() == decoded_triangles.size(), "another number of triangles");
-    if (options_.keep_triangle_order)
-      require(triangles == decoded_triangles, "the order of triangles differs");
-    normalize(triangles);
-    normalize(decoded_triangles);
-    require(triangles == decoded_triangles, "the triangles differ");
+    compareTriangles({source_, source}, {decoded_, decoded}, attributes, options_.keep_vertex_order,
+                     options_.keep_triangle_order);
   } catch (const std::exception& error) {
     fail("/meshes/" + std::to_string(mesh) + "/primitives/" + std::to_string(i) + ": " +
          error.what());
@@ -696,8 +698,8 @@ class Comparison {
   const PlainDocument& source_;
   const PlainDocument& converted_;
   const PlainDocument& decoded_;
-  const RandomDocument& document_;
   const ConvertOptions& options_;
+  const KeptNumbers& kept_;
   const ConvertReport& report_;
   std::set<uint64_t> compressed_;
 };
@@ -705,12 +707,35 @@ class Comparison {
 }  // namespace
 
 std::string differenceOf(const PlainDocument& source, const PlainDocument& converted,
-                         const PlainDocument& decoded, const RandomDocument& document,
-                         const ConvertReport& report) try {
-  Comparison(source, converted, decoded, document, report).run();
+                         const PlainDocument& decoded, const ConvertOptions& options,
+                         const KeptNumbers& kept, const ConvertReport& report) try {
+  Comparison(source, converted, decoded, options, kept, report).run();
   return "";
 } catch (const std::exception& error) {
   return error.what();
+}
+
+std::string differenceOfPrimitives(const Bytes& source_file, const Bytes& decoded_file,
+                                   bool keeps_order) {
+  PlainDocument source, decoded;
+  for (const std::string& why : {source.load({{"source", source_file}}, "source"),
+                                 decoded.load({{"decoded", decoded_file}}, "decoded")}) {
+    if (!why.empty()) return why;
+  }
+  const Json& meshes = memberOf(source.json, "meshes");
+  for (size_t mesh = 0; mesh < meshes.size(); ++mesh) {
+    const Json& primitives = memberOf(meshes[mesh], "primitives");
+    for (size_t i = 0; i < primitives.size(); ++i) {
+      try {
+        comparePrimitives({source, primitives[i]},
+                          {decoded, decoded.json["meshes"][mesh]["primitives"][i]}, keeps_order);
+      } catch (const std::exception& error) {
+        return "/meshes/" + std::to_string(mesh) + "/primitives/" + std::to_string(i) + ": " +
+               error.what();
+      }
+    }
+  }
+  return "";
 }
 
 }  // namespace mcc::gltf::test

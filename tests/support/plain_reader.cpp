@@ -1,11 +1,14 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-#include "documents/plain_reader.h"
+#include "support/plain_reader.h"
 
 #include <cstring>
 #include <stdexcept>
 
+#include "support/gltf_builder.h"
+#ifdef MCC_HAS_FOREIGN
 #include "foreign/draco_codec.h"
 #include "foreign/meshopt_codec.h"
+#endif
 
 namespace mcc::gltf::test {
 namespace {
@@ -59,28 +62,9 @@ std::string withoutPercents(const std::string& uri) {
 }
 
 uint32_t bytesOfType(uint64_t component_type) {
-  switch (component_type) {
-    case 5120:
-    case 5121: return 1;
-    case 5122:
-    case 5123: return 2;
-    case 5125:
-    case 5126: return 4;
-    default: fail("an unknown component type");
-  }
-}
-
-struct Shape {
-  uint32_t columns;
-  uint32_t rows;
-};
-
-Shape shapeOf(const std::string& type) {
-  if (type == "SCALAR") return {1, 1};
-  const uint32_t n = static_cast<uint32_t>(type.back() - '0');
-  if (type.starts_with("VEC")) return {1, n};
-  if (type.starts_with("MAT")) return {n, n};
-  fail("an unknown type");
+  if (component_type < kByte || component_type > kFloat || component_type == kUnsignedShort + 1)
+    fail("an unknown component type");
+  return widthOf(static_cast<int>(component_type));
 }
 
 }  // namespace
@@ -144,6 +128,8 @@ std::string PlainDocument::load(const Files& files, const std::string& main) try
   return error.what();
 }
 
+#ifdef MCC_HAS_FOREIGN
+
 void PlainDocument::decodeMeshes() {
   for (const Json& mesh : memberOf(json, "meshes")) {
     for (const Json& primitive : memberOf(mesh, "primitives")) {
@@ -171,6 +157,25 @@ void PlainDocument::decodeMeshes() {
   }
 }
 
+Bytes PlainDocument::decodedView(const Json& coding, const Bytes& coded) {
+  const Json& filter = memberOf(coding, "filter");
+  Bytes elements;
+  const auto outcome = foreign::decodeMeshoptView(
+      coded, numberOf(coding, "count", 0), static_cast<uint32_t>(numberOf(coding, "byteStride", 0)),
+      memberOf(coding, "mode").get<std::string>(),
+      filter.is_null() ? "NONE" : filter.get<std::string>(), elements);
+  if (!outcome.ok()) fail(outcome.message);
+  return elements;
+}
+
+#else
+
+void PlainDocument::decodeMeshes() {}
+
+Bytes PlainDocument::decodedView(const Json&, const Bytes&) { fail("this build has no meshopt"); }
+
+#endif
+
 Bytes PlainDocument::viewBytes(uint64_t view) const {
   const Json& views = memberOf(json, "bufferViews");
   if (view >= views.size()) fail("there is no such view");
@@ -182,15 +187,7 @@ Bytes PlainDocument::viewBytes(uint64_t view) const {
   };
   const Json& coding = memberOf(memberOf(views[view], "extensions"), "EXT_meshopt_compression");
   if (coding.is_null()) return rangeOf(views[view]);
-  const Json& filter = memberOf(coding, "filter");
-  Bytes elements;
-  const auto outcome =
-      foreign::decodeMeshoptView(rangeOf(coding), numberOf(coding, "count", 0),
-                                 static_cast<uint32_t>(numberOf(coding, "byteStride", 0)),
-                                 memberOf(coding, "mode").get<std::string>(),
-                                 filter.is_null() ? "NONE" : filter.get<std::string>(), elements);
-  if (!outcome.ok()) fail(outcome.message);
-  return elements;
+  return decodedView(coding, rangeOf(coding));
 }
 
 Bytes PlainDocument::imageBytes(uint64_t image) const {
@@ -208,6 +205,10 @@ Elements PlainDocument::elements(uint64_t accessor) const {
   elements.type = memberOf(source, "type").get<std::string>();
   elements.component_type = numberOf(source, "componentType", 0);
   elements.is_normalized = memberOf(source, "normalized") == true;
+  if (elements.type != "SCALAR" && !elements.type.starts_with("VEC") &&
+      !elements.type.starts_with("MAT")) {
+    fail("an unknown type");
+  }
   const Shape shape = shapeOf(elements.type);
   const uint32_t width = bytesOfType(elements.component_type);
   const uint32_t column = shape.rows * width;
@@ -221,8 +222,9 @@ Elements PlainDocument::elements(uint64_t accessor) const {
   const auto fill = [&](const Bytes& bytes, uint64_t offset, uint64_t stride, uint64_t i,
                         std::string& value) {
     for (uint32_t c = 0; c < shape.columns; ++c) {
-      const Bytes part = slice(bytes, offset + i * stride + c * padded_column, column);
-      std::memcpy(value.data() + c * column, part.data(), column);
+      const uint64_t at = offset + i * stride + c * padded_column;
+      if (at > bytes.size() || column > bytes.size() - at) fail("an element is out of bounds");
+      std::memcpy(value.data() + c * column, &bytes[at], column);
     }
   };
   if (const auto decoded = decoded_.find(accessor); decoded != decoded_.end()) {

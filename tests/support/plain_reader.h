@@ -1,18 +1,22 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Reads glTF by separate, plain code, so that comparisons share nothing with the library except the
-// JSON parser.
-#ifndef MCC_TESTS_DOCUMENTS_PLAIN_READER_H_
-#define MCC_TESTS_DOCUMENTS_PLAIN_READER_H_
+// JSON parser. Other codecs are decoded where the build has them.
+#ifndef MCC_TESTS_SUPPORT_PLAIN_READER_H_
+#define MCC_TESTS_SUPPORT_PLAIN_READER_H_
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "documents/random_document.h"
 #include "json/json.h"
 
 namespace mcc::gltf::test {
+
+using Bytes = std::vector<uint8_t>;
+/// Files by their names.
+using Files = std::map<std::string, Bytes>;
 
 /// The elements of an accessor without padding, sparse values applied.
 struct Elements {
@@ -46,6 +50,7 @@ class PlainDocument {
  private:
   Bytes fetch(const std::string& uri) const;
   void decodeMeshes();
+  static Bytes decodedView(const Json& coding, const Bytes& coded);
 
   Files files_;
   std::vector<Bytes> buffers_;
@@ -60,4 +65,4 @@ uint64_t numberOf(const Json& value);
 
 }  // namespace mcc::gltf::test
 
-#endif  // MCC_TESTS_DOCUMENTS_PLAIN_READER_H_
+#endif  // MCC_TESTS_SUPPORT_PLAIN_READER_H_
