@@ -612,41 +612,39 @@ class Maker {
   void methods() {
     for (const MethodInfo& m : kMethods) {
       if (m.method == AttributeMethod::kPosition || m.method == AttributeMethod::kAlias) continue;
-      const auto number = [&](const PayloadHeader& h) { return attributeOf(h, m.method); };
+      const auto number = [&](const PayloadHeader& h) {
+        if (h.pieces.size() != 1) return kNone;
+        for (uint32_t i = 1; i < h.pieces[0].attribute_count; ++i) {
+          if (methodOf(h.attributesOf(h.pieces[0]), i) == m.method) return i;
+        }
+        return kNone;
+      };
       predictorsOf(m.name, wrongPredictors(m), number);
     }
   }
 
-  /// Returns the number of an attribute of the only piece with this method, or kNone.
-  static uint32_t attributeOf(const PayloadHeader& h, AttributeMethod method) {
-    if (h.pieces.size() != 1) return kNone;
-    for (uint32_t i = 1; i < h.pieces[0].attribute_count; ++i) {
-      if (methodOf(h.attributesOf(h.pieces[0]), i) == method) return i;
-    }
-    return kNone;
-  }
-
   /// Bits that minor version 1 added are wrong in version 1.0, others still are in 1.1.
   void predictorsOfVersion11() {
-    const auto tangents = [&](uint8_t minor, AttributeMethod method, uint32_t predictor) {
-      const Asset& asset =
-          base([=](const PayloadHeader& h) { return attributeOf(h, method) != kNone; });
+    const std::vector<Source> sources = tangentSources();
+    const auto tangents = [&](uint8_t minor, const Source& source, uint32_t predictor) {
+      const Asset asset = encodeSource(source);
+      const PayloadHeader before = headerOf(asset.payload);
+      const uint32_t last = before.pieces[0].attribute_count - 1;
+      const std::string name = infoOf(methodOf(before.attributesOf(before.pieces[0]), last)).name;
       HeaderFields fields(asset.payload);
-      const uint32_t k = attributeOf(headerOf(asset.payload), method);
-      fields.set("0." + std::to_string(k) + ".predictor", predictor);
+      fields.set("0." + std::to_string(last) + ".predictor", predictor);
       Bytes payload = fields.payload();
       payload[kVersionOffset] = static_cast<uint8_t>(kVersionMajor << 4 | minor);
       repairChecksum(payload);
-      const std::string name = infoOf(method).name;
       const std::string version = "1." + std::to_string(minor);
       add("predictor " + std::to_string(predictor) + " of " + name + " in " + version, "A.2.4",
           Error::kBadHeader,
           "A predictor that the method " + name + " does not have in version " + version, asset,
           payload);
     };
-    tangents(0, AttributeMethod::kTangentPoint, tangent_method::kFaces);
-    tangents(1, AttributeMethod::kTangentPoint, 4);
-    tangents(1, AttributeMethod::kTangent, tangent_method::kFaces);
+    tangents(0, sources[2], tangent_method::kFaces);
+    tangents(1, sources[2], 4);
+    tangents(1, sources[0], tangent_method::kFaces);
   }
 
   void predictorsOf(const std::string& name, const std::vector<uint8_t>& predictors,

@@ -1162,135 +1162,108 @@ std::vector<Source> rareSources() {
 
 namespace {
 
-/// A sphere of triangles with wedges of their own, whose normals are smooth nevertheless.
-TestMesh sphereOfFaces(uint32_t level) {
-  TestMesh mesh = flatShaded(icosphere(level));
-  for (size_t w = 0; w < mesh.vertexCount(); ++w) {
-    const float* p = &mesh.positions[3 * w];
-    const float length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-    for (size_t c = 0; c < 3; ++c) mesh.normals[3 * w + c] = p[c] / length;
+/// Triangles with wedges of their own, whose normals are smooth nevertheless.
+TestMesh sphereOfFaces() {
+  TestMesh mesh = flatShaded(icosphere(0));
+  mesh.normals = mesh.positions;
+  return mesh;
+}
+
+/// Two normals whose points on the grid of 4 bits, (5, 11) and (8, 4), have one key.
+TestMesh withTwoNormals(TestMesh mesh) {
+  mesh.normals.clear();
+  for (uint32_t w = 0; w < mesh.vertexCount(); ++w) {
+    const float scale = 1 / std::sqrt(w % 3 == 0 ? 21.0f : 19.0f);
+    for (const float x : w % 3 == 0 ? std::array{-2.0f, 4.0f, 1.0f} : std::array{1.0f, -3.0f, 3.0f})
+      mesh.normals.push_back(x * scale);
   }
   return mesh;
 }
 
-/// Tangents in the faces of a mesh without shared wedges: one for each face, or one for each
-/// corner.
-void tangentsInFaces(SourceBuilder& b, uint8_t bits, bool one_per_face) {
-  NamedAttribute a = makeAttribute("TANGENT", kBase, "VEC4", ComponentType::kFloat32);
-  a.bits = bits;
-  for (uint32_t w = 0; w < b.piece().wedge_count; ++w) {
-    const uint32_t first = w / 3 * 3;
-    const Place corners[] = {b.at(first), b.at(first + 1), b.at(first + 2)};
-    const double share = one_per_face ? 0.3 : 0.2 * (w % 3) + 0.1;
-    double t[3];
-    double square = 0;
-    for (uint32_t c = 0; c < 3; ++c) {
-      const double from = corners[0].position(c);
-      t[c] =
-          (corners[1].position(c) - from) * (1 - share) + (corners[2].position(c) - from) * share;
-      square += t[c] * t[c];
-    }
-    for (const double x : t)
-      a.append(static_cast<float>(square > 0 ? x / std::sqrt(square) : &x == t ? 1.0 : 0.0));
-    a.append(first % 5 == 0 ? -1.0f : 1.0f);
+/// A waved sheet, one half of which is squeezed to a line, so that its faces have no area.
+TestMesh squeezedSheet() {
+  TestMesh mesh = withNormals(grid(6, 5));
+  float middle = 0;
+  for (size_t i = 1; i < mesh.positions.size(); i += 3) middle += mesh.positions[i];
+  middle /= static_cast<float>(mesh.vertexCount());
+  for (size_t i = 0; i < mesh.positions.size(); i += 3) {
+    float* p = &mesh.positions[i];
+    p[0] += 0.1f * p[1];
+    if (p[1] > middle) continue;
+    p[1] = middle;
+    p[2] = 0;
   }
-  b.piece().attributes.push_back(std::move(a));
+  return mesh;
 }
 
-/// How the tangents of a source of version 1.1 are made.
-struct TangentCase {
-  const char* name;
-  const char* shows;
-  TestMesh mesh;
-  std::vector<uint64_t> variations;
-  std::function<void(SourceBuilder&)> fill;  ///< after the positions
-};
+/// Texture coordinates that have no direction in one half.
+void halfChart(SourceBuilder& b) {
+  b.floats("TEXCOORD_0", kBase, "VEC2", 7,
+           [](const Place& at, uint32_t c) { return at.position(0) < 0 ? 0.5f : at.texcoord(c); });
+}
 
-std::vector<TangentCase> tangentCases() {
-  const TestMesh faces = sphereOfFaces(1);
-  return {
-      {"angles",
-       "angles with few values, beside few normals",
-       withNormals(withRandomWedges(torus(12, 9), 4, 3)),
-       {1, 2, 3},
-       [](SourceBuilder& b) {
-         b.normals(4);
-         b.texcoords("TEXCOORD_0", 9);
-         b.tangents(3, true);
-       }},
-      {"angles_without_chart",
-       "angles with few values, beside many normals",
-       uvSphere(24, 16),
-       {1, 2, 3},
-       [](SourceBuilder& b) {
-         b.normals(5);
-         b.tangents(2, true);
-       }},
-      {"one_per_face",
-       "a tangent for each face, not beside the normals",
-       faces,
-       {0, 1, 2, 3, 4},
-       [](SourceBuilder& b) {
-         b.normals(8);
-         b.texcoords("TEXCOORD_0", 9);
-         tangentsInFaces(b, 9, true);
-       }},
-      {"in_faces",
-       "tangents in the faces, another for each corner",
-       faces,
-       {0, 1, 2, 3, 4},
-       [](SourceBuilder& b) {
-         b.normals(8);
-         b.texcoords("TEXCOORD_0", 9);
-         tangentsInFaces(b, 9, false);
-       }},
-      {"exact_normals",
-       "points beside exact normals",
-       faces,
-       {1, 2},
-       [](SourceBuilder& b) {
-         b.normals(0, Floats::kBinary);
-         tangentsInFaces(b, 5, true);
-       }},
-      {"no_normals",
-       "points without normals, few values",
-       torus(9, 7),
-       {1, 2, 3},
-       [](SourceBuilder& b) { b.tangents(3, false); }},
-      {"flat_faces",
-       "points at faces without an area",
-       withDegenerates(faces, 5, 9),
-       {1, 2, 3},
-       [](SourceBuilder& b) {
-         b.normals(6);
-         b.texcoords("TEXCOORD_0", 9);
-         b.tangents(6, false);
-       }},
+/// A tangent in the plane of each face of a mesh without shared wedges.
+void tangentsOfFaces(SourceBuilder& b, uint8_t bits) {
+  b.floats("TANGENT", kBase, "VEC4", bits, [&](const Place& at, uint32_t c) {
+    const uint32_t first = at.wedge / 3 * 3;
+    if (c == 3) return first % 5 == 0 ? -1.0f : 1.0f;
+    const auto along = [&](uint32_t s) {
+      return 0.7 * double{b.at(first + 1).position(s)} + 0.3 * double{b.at(first + 2).position(s)} -
+             double{b.at(first).position(s)};
+    };
+    const double square = along(0) * along(0) + along(1) * along(1) + along(2) * along(2);
+    return static_cast<float>(along(c) / std::sqrt(square));
+  });
+}
+
+void anglesInHalfAChart(SourceBuilder& b) {
+  b.positions(8);
+  b.normals(4);
+  halfChart(b);
+  b.tangents(3, true);
+}
+
+Source repeatsInPieces() {
+  const auto fill = [](SourceBuilder& b) {
+    b.positions(8);
+    b.tangents(3, false);
   };
+  Source source = single("tangents_repeats_in_pieces", "points without normals, in two pieces",
+                         torus(5, 4), fill);
+  source.pieces.push_back(source.pieces[0]);
+  source.options.variation = 6;  // which do not lie in faces
+  return source;
 }
 
 }  // namespace
 
-std::vector<Source> sourcesOfVersion11() {
+std::vector<Source> tangentSources() {
   std::vector<Source> all;
-  for (const TangentCase& c : tangentCases()) {
-    for (const uint64_t variation : c.variations) {
-      all.push_back(single("tangents_" + std::string(c.name) + "_" + std::to_string(variation),
-                           std::string("Version 1.1: ") + c.shows, c.mesh, [&](SourceBuilder& b) {
-                             b.positions(10);
-                             c.fill(b);
-                           }));
-      all.back().options.variation = variation;
-      all.back().options.without = {};
-    }
-  }
-  const TangentCase in_blocks = tangentCases()[0];
+  const TestMesh cut = withTwoNormals(withRandomWedges(torus(6, 4), 4, 3));
   all.push_back(
-      inBlocks("repeated_tangents", in_blocks.shows, in_blocks.mesh, 60, 3, [&](SourceBuilder& b) {
-        b.positions(10);
-        in_blocks.fill(b);
-      }));
-  all.back().options.without = {};
+      single("tangents_angles", "angles, one half without a chart", cut, anglesInHalfAChart));
+  all.push_back(single("tangents_one_per_face", "a tangent for each face, one half without a chart",
+                       sphereOfFaces(), [](SourceBuilder& b) {
+                         b.positions(8);
+                         b.normals(5);
+                         halfChart(b);
+                         tangentsOfFaces(b, 8);
+                       }));
+  all.push_back(single("tangents_flat_faces",
+                       "points at faces without an area, beside exact normals", squeezedSheet(),
+                       [](SourceBuilder& b) {
+                         b.positions(8);
+                         b.normals(0, Floats::kBinary);
+                         b.texcoords("TEXCOORD_0", 7);
+                         b.tangents(6, false);
+                       }));
+  all.back().options.variation = 3;  // which lie in faces
+  all.push_back(repeatsInPieces());
+  all.push_back(inBlocks("of_tangents", "angles", cut, 20, 1, anglesInHalfAChart));
+  for (Source& source : all) {
+    source.shows = "Version 1.1: " + source.shows;
+    source.options.without = {};
+  }
   return all;
 }
 

@@ -28,7 +28,7 @@ std::vector<Source> blockSources();
 std::vector<Source> rareSources();
 
 /// Sources of assets of minor version 1: tangents that repeat, or lie in faces.
-std::vector<Source> sourcesOfVersion11();
+std::vector<Source> tangentSources();
 
 /// A random source: surface, attributes, options. The same for the same seed on every machine.
 Source randomSource(uint64_t seed);

@@ -285,7 +285,7 @@ Suite makeSuite() {
   addFound(candidates);
   for (const Source& source : rareSources()) addAsset(candidates, encodeSource(source));
   addSpellings(candidates);
-  for (const Source& source : sourcesOfVersion11()) addAsset(candidates, encodeSource(source));
+  for (const Source& source : tangentSources()) addAsset(candidates, encodeSource(source));
   numberNames(candidates);
   Suite suite;
   Json manifest = {{"extension", gltf::kExtensionName},

@@ -134,8 +134,8 @@ inline constexpr PredictorField kNormalWeight = {
 inline constexpr PredictorField kNormalBlend = {
     normal_method::kBlend, 2, Feature::kNormalBlend, {{"", "", 0}, {"blend", "", 0}}};
 
-/// It comes after the equalities, which find most of what repeats at no cost in flags: chosen first
-/// it would hide what they gain.
+/// It comes after the equalities, which spare much of what repeats, too: chosen first, it would
+/// hide what they gain.
 inline constexpr PredictorField kTangentRepeats = {
     tangent_method::kRepeats, 2, Feature::kTangentRepeats, {{"", "", 0}, {"repeats", "A.10.19", 5}},
     decodes::kTangentRepeats, 1};
