@@ -212,8 +212,7 @@ bool ExactNormalCoder<Io>::codeKnown(uint32_t w, uint32_t entry, const double* p
     return std::equal(candidate, candidate + 3, value);
   };
   memory_->begin();
-  uint32_t k =
-      memory_->ask(job_.io, models_.memory, predictionKey(predicted), kNone, isValue);
+  uint32_t k = memory_->ask(job_.io, models_.memory, predictionKey(predicted), kNone, isValue);
   if (k == kNone && entry != kNone) {
     const FaceView& faces = job_.wedges.faces;
     const uint32_t across = nextHalfEdge(entry);
