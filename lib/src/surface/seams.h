@@ -238,7 +238,6 @@ void SeamCoder<Io>::codeSeamEnds() {
   begins[0] = 0;
   first_run_ = boundary ^ 1;
   uint32_t ends = 0;
-  typename Io::CodesBurst codes(io_);
   for (uint32_t k = 1; k <= edges; ++k) {
     const uint32_t i = k == n ? 0 : k;
     bool seam = ends + (edges - k + 1) == needed;  // implied when every remaining edge is needed
@@ -249,14 +248,13 @@ void SeamCoder<Io>::codeSeamEnds() {
       const uint32_t other = (faces_.vertex(t) & kDone) == 0 ? 0 : seam_there;
       bool truth = false;
       if constexpr (Io::kEncoding) truth = source(fan[i]) != source(fan[i == 0 ? n - 1 : i - 1]);
-      seam = codes.bit(models_.edge[other][std::min(ends, 2u)][boundary][creaseOf(states)], truth);
+      seam = io_.bit(models_.edge[other][std::min(ends, 2u)][boundary][creaseOf(states)], truth);
     }
     if (!seam) continue;
     ++ends;
     begins[ends] = i;
     faces_.words[fan[i] | kSeamWord] |= seam_state::kEnd << (8 * (fan[i] & 3));
   }
-  codes.giveBack(io_);
   run_end_ = ends + 1;
   if (begins[ends] != 0) return;
   first_run_ = 0;
