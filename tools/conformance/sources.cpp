@@ -5,10 +5,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <map>
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <map>
 
 #include "support/mesh_generators.h"
 #include "support/mirrored.h"
@@ -1191,8 +1191,8 @@ void mirroredSurfaces(std::vector<Source>& all) {
       single("isolated", "Isolated wedges have no images", withUnused(one, 3, 9), positions));
 }
 
-/// Normals and texture coordinates that a vertex and its images under x -> -x share, `kinds` of them
-/// for the wedges of each vertex.
+/// Normals and texture coordinates that a vertex and its images under x -> -x share, `kinds` of
+/// them for the wedges of each vertex.
 TestMesh withSharedValues(TestMesh mesh, uint32_t kinds) {
   mesh.normals.clear();
   mesh.texcoords.clear();
@@ -1204,8 +1204,9 @@ TestMesh withSharedValues(TestMesh mesh, uint32_t kinds) {
     float n[3];
     for (int s = 0; s < 3; ++s) {
       random = Random(random.next() + static_cast<uint64_t>(1000 * std::fabs(p[s])));
-      n[s] = std::copysign(1 + static_cast<float>(random.below(4)), p[s]);
+      n[s] = std::copysign(static_cast<float>(random.below(4)), p[s]);
     }
+    if (n[0] == 0 && n[1] == 0) n[2] = std::copysign(1.0f, p[2]);
     const float scale = 1 / std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (const float x : n) mesh.normals.push_back(x * scale);
     for (int c = 0; c < 2; ++c) mesh.texcoords.push_back(random.unit());
@@ -1225,7 +1226,8 @@ void matesOfSurfaces(std::vector<Source>& all) {
   all.push_back(single("three", "eight parts, with seams",
                        withSharedValues(withRandomWedges(three, 3, 3), 3), fill));
   all.push_back(single("crowded", "vertices with more wedges than are looked at",
-                       withSharedValues(withRandomWedges(mirrored(openFan(12), 1), 4, 7), 7), fill));
+                       withSharedValues(withRandomWedges(mirrored(openFan(12), 1), 4, 7), 7),
+                       fill));
   all.push_back(single("two_charts", "two sets of texture coordinates, isolated wedges",
                        withSharedValues(withUnused(one, 3, 9), 2), [&](SourceBuilder& b) {
                          fill(b);
@@ -1375,7 +1377,7 @@ std::vector<Source> tangentSources() {
                        }));
   all.back().options.variation = 3;  // which lie in faces
   all.push_back(repeatsInPieces());
-  all.push_back(inBlocks("of_tangents", "angles", cut, 20, 1, anglesInHalfAChart));
+  all.push_back(inBlocks("of_tangents", "angles", cut, 20, 3, anglesInHalfAChart));
   for (Source& source : all) {
     source.shows = "Version 1.1: " + source.shows;
     source.options.without = {};

@@ -17,7 +17,9 @@ struct VertexMates {
   explicit VertexMates(const Allocator& allocator) : states(allocator) {}
 
   /// Returns the mate of a vertex, maybe the vertex itself, or kNone.
-  uint32_t mateOf(uint32_t mirror, uint32_t vertex) const { return states[placeOf(mirror, vertex)]; }
+  uint32_t mateOf(uint32_t mirror, uint32_t vertex) const {
+    return states[placeOf(mirror, vertex)];
+  }
   uint32_t& mateOf(uint32_t mirror, uint32_t vertex) { return states[placeOf(mirror, vertex)]; }
   uint32_t& startOf(uint32_t vertex) { return states[vertex * size_t{1 + mirror_count}]; }
 

@@ -64,11 +64,7 @@ class MirrorMates {
   /// `mates` receives the mates.
   MirrorMates(const FaceView& faces, const VertexRecord* records, const Mirrors& mirrors,
               VertexMates& mates, const Allocator& allocator)
-      : faces_(faces),
-        records_(records),
-        count_(mirrors.count),
-        mates_(mates),
-        at_(allocator) {
+      : faces_(faces), records_(records), count_(mirrors.count), mates_(mates), at_(allocator) {
     mates_.mirror_count = count_;
     for (uint32_t m = 0; m < count_; ++m) {
       const Mirror& mirror = mirrors.mirror[m];

@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // What all attributes of a piece share: the order of the wedges, the faces that each wedge
-// completes, positions as the predictions see them, and groups of wedges with equal values. [A.10.1]
+// completes, positions as the predictions see them, and groups of wedges with equal values.
+// [A.10.1]
 #ifndef MCC_SURFACE_WEDGES_H_
 #define MCC_SURFACE_WEDGES_H_
 
