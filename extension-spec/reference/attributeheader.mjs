@@ -91,7 +91,7 @@ function readFloat(reader, form, usual) {
 }
 
 // [A.2.4] What depends on all headers of a piece.
-export function finishAttributes(attributes) {
+export function finishAttributes(attributes, minorVersion) {
 	const isOctahedralNormal = (a) => a.coding === OCTAHEDRAL && a.semantic !== TANGENT && a.target === 0;
 	const octahedralNormal = attributes.find(isOctahedralNormal);
 	const exactNormal = attributes.find((a) => a.semantic === NORMAL && a.target === 0 && a.components === 3
@@ -99,6 +99,8 @@ export function finishAttributes(attributes) {
 	findPartners(attributes);
 	for (const a of attributes) {
 		setMethod(a);
+		const isNew = a.method.startsWith('tangent') && (a.predictor & 3) !== 0;
+		valid(!isNew || minorVersion >= 1, 'a predictor is new in minor version 1');
 		if (a.coding === ALIAS) checkAlias(a, attributes);
 		if (a.coding === TANGENT_ANGLE) valid(octahedralNormal !== undefined, 'a tangent angle has no normal');
 	}
@@ -124,9 +126,9 @@ function findPartners(attributes) {
 // [A.2.4] The methods by their numbers, with the bits that their predictor byte may have.
 const METHODS = [
 	{ name: 'position', bits: 255, fits: (a) => a.number === 0 },
-	{ name: 'tangent point', bits: 128, fits: (a) => a.coding === OCTAHEDRAL && a.semantic === TANGENT },
+	{ name: 'tangent point', bits: 131, fits: (a) => a.coding === OCTAHEDRAL && a.semantic === TANGENT },
 	{ name: 'normal', bits: 135, fits: (a) => a.coding === OCTAHEDRAL },
-	{ name: 'tangent', bits: 128, fits: (a) => a.coding === TANGENT_ANGLE },
+	{ name: 'tangent', bits: 129, fits: (a) => a.coding === TANGENT_ANGLE },
 	{ name: 'alias', bits: 0, fits: (a) => a.coding === ALIAS },
 	{ name: 'skin', bits: 128, fits: (a) => a.semantic === JOINTS && a.partner !== undefined },
 	{ name: 'skin weights', bits: 3, fits: (a) => a.semantic === WEIGHTS && a.partner !== undefined },

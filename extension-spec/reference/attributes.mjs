@@ -12,7 +12,7 @@ import { decodeNormals, normalModels } from './normals.mjs';
 import { exactPositions, seenPositions } from './seenpositions.mjs';
 import { decodeSkin, skinModels } from './skins.mjs';
 import {
-	decodeTangentAngles, decodeTangentPoints, normalsBeside, tangentModels, tangentPointModels, unitNormals,
+	decodeTangentAngles, decodeTangentPoints, normalPoints, normalsBeside, tangentModels, tangentPointModels, unitNormals,
 } from './tangents.mjs';
 import { decodeTexcoords, texcoordModels } from './texcoords.mjs';
 import { decodeValues, valuesModels } from './values.mjs';
@@ -73,9 +73,14 @@ function readValues(a, coding, attribute) {
 		case 'normal':
 			return decodeNormals(coding, models.normals, attribute, a.positions);
 		case 'tangent':
-			return decodeTangentAngles(coding, models.tangents, attribute, sums(), unitNormals(piece, valuesOf));
+			return decodeTangentAngles(
+				coding, models.tangents, attribute, sums(), unitNormals(piece, valuesOf), normalPoints(piece, valuesOf),
+			);
 		case 'tangent point':
-			return decodeTangentPoints(coding, models.tangentPoints, attribute, sums(), normalsBeside(piece, valuesOf));
+			return decodeTangentPoints(
+				coding, models.tangentPoints, attribute, sums(), normalsBeside(piece, valuesOf),
+				normalPoints(piece, valuesOf), a.positions,
+			);
 		case 'skin':
 			return decodeSkin(coding, models.skins[set], piece.attributes[attribute.partner]);
 		case 'texture coordinate':

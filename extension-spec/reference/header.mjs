@@ -153,7 +153,7 @@ function readAttributes(reader, header, piece, before, totals) {
 		piece.attributes = [];
 		for (let i = 0; i < count; ++i) piece.attributes.push(readAttributeHeader(reader, piece.attributes));
 		checkPosition(piece.attributes[0]);
-		Object.assign(piece, finishAttributes(piece.attributes));
+		Object.assign(piece, finishAttributes(piece.attributes, header.minorVersion));
 	}
 	const { SAME_ATTRIBUTES, attributes } = piece;
 	piece.component_sum = SAME_ATTRIBUTES ? before.component_sum : sumOf(attributes.map((a) => a.components));

@@ -2,7 +2,7 @@
 
 // The octahedral grid and its frames [A.10.6]. All floats are f32.
 
-import { add32, clamp, copysign, dot32, f, round32, scale32 } from './floats.mjs';
+import { add32, clamp, copysign, cross32, dot32, f, round32, scale32 } from './floats.mjs';
 import { NO_NEIGHBOURS, contextAfter, smallSigned } from './residuals.mjs';
 
 // [A.10.6] The centre of a grid of b bits.
@@ -56,12 +56,24 @@ function pointOf({ C, c, s, turned, p }, residuals) {
 }
 const wrap = (C, i) => (i < -C ? i + (2 * C + 1) : i);
 
-// [A.10.8] A point in a frame, relative to the centre, and its length L.
-export function readPoint(coder, ROW, frameOfPoint, context) {
+// [A.10.19] How residuals in the frame of `direction` lie if the vectors lie in the plane with the normal N.
+export function lineOfPlane({ c, s }, N, direction) {
+	const turn = cross32(N, direction);
+	const shrink = turn.reduce((sum, x, k) => f(sum + (direction[k] < 0 ? -x : x)), 0);
+	const [x, y] = [0, 1].map((k) => f(f(turn[k] * size(direction)) - f(direction[k] * shrink)));
+	const step = [c * x - s * y, s * x + c * y];
+	const k = Math.abs(step[1]) > Math.abs(step[0]) ? 1 : 0;
+	return { k, slope: Math.abs(step[k]) > 0 ? f(step[1 - k] / step[k]) : 0 };
+}
+
+// [A.10.8, A.10.19] A point in a frame, relative to the centre, and its length L; residuals are near a line, if there is one.
+export function readPoint(coder, ROW, frameOfPoint, context, { k, slope } = { k: 0, slope: 0 }) {
 	const first = smallSigned(coder, 0, ROW[0][context]);
 	const row = ROW[1][context === NO_NEIGHBOURS ? first.length : contextAfter(context, first.length)];
 	const second = smallSigned(coder, 1, row);
-	const point = pointOf(frameOfPoint, [first.residual, second.residual]);
+	const { C } = frameOfPoint, expected = round32(f(slope * clamp(first.residual, -C, C)));
+	const other = (second.residual + expected) | 0;
+	const point = pointOf(frameOfPoint, k === 0 ? [first.residual, other] : [other, first.residual]);
 	return { point, length: Math.max(first.length, second.length) };
 }
 

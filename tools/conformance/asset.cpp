@@ -7,6 +7,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "format/predictors.h"
 #include "gltf/compress/plan.h"
 #include "gltf/document/accessors.h"
 #include "gltf/document/payload.h"
@@ -246,6 +247,17 @@ const Asset& closestTo(const std::vector<uint8_t>& payload, std::span<const Asse
   throw std::runtime_error("a payload that was found is like no asset: search anew");
 }
 
+EncodeSettings ofVersion10() {
+  EncodeSettings settings;
+  settings.without.add(Feature::kMirrors);
+  for (const MethodInfo& method : kMethods) {
+    for (const PredictorField& field : method) {
+      if (field.since != 0) settings.without.add(field.feature);
+    }
+  }
+  return settings;
+}
+
 Asset encodeSource(const Source& source) {
   const std::vector<std::vector<AttributeView>> attributes = viewsOf(source);
   std::vector<std::vector<PartView>> parts;
@@ -256,9 +268,7 @@ Asset encodeSource(const Source& source) {
   }
   for (size_t i = 0; i < source.pieces.size(); ++i)
     pieces.push_back({source.pieces[i].wedge_count, attributes[i], parts[i]});
-  EncodeSettings options = source.options;
-  if (!source.may_have_mirrors) options.without.add(Feature::kMirrors);
-  test::RoundTrip trip = test::roundTrip(pieces, options);
+  test::RoundTrip trip = test::roundTrip(pieces, source.options);
   if (!trip.failure.empty()) throw std::runtime_error(source.name + ": " + trip.failure);
   if (source.options.block_triangles != kBlocksByPreference && trip.encoded.block_count == 0)
     throw std::runtime_error(source.name + " has no blocks: " + trip.encoded.whole_because);

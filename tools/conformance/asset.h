@@ -51,12 +51,14 @@ struct SourcePiece {
   std::vector<std::vector<uint32_t>> parts;
 };
 
+/// Settings without what later versions of the format added.
+EncodeSettings ofVersion10();
+
 struct Source {
   std::string name;   ///< of the file, without extension
   std::string shows;  ///< one sentence
   std::vector<SourcePiece> pieces;
-  EncodeSettings options;
-  bool may_have_mirrors = false;  ///< assets of version 1.0 have none
+  EncodeSettings options = ofVersion10();
 };
 
 /// What a primitive names of a piece.

@@ -192,6 +192,8 @@ class Listing {
     for (const PredictorField& field : method) {
       const PredictorValue& value = field.value[field.valueOf(predictor)];
       if (field.mask == kHasEqualities) continue;
+      // What a later version added must not change which assets show those before it.
+      if (field.since != 0 && field.valueOf(predictor) == 0) continue;
       if (field.feature != Feature::kMemory) together |= field.mask;
       const Sections own = sectionsIn(method.sections, value.sections);
       add(text((name + ", field " + std::to_string(field.mask)).c_str(), field.valueOf(predictor)),

@@ -79,6 +79,7 @@ class Maker {
     sharedAccessors();
     emptyParts();
     mirrors();
+    predictorsOfVersion11();
     if (!problems_.empty()) throw std::runtime_error(problems_);
     return std::move(all_);
   }
@@ -594,11 +595,12 @@ class Maker {
   }
 
   /// Predictor bytes that a method does not have: a value beyond those of a field, and the lowest
-  /// and the highest of the bits that no field has.
+  /// and the highest of the bits that no field of version 1.0 has.
   static std::vector<uint8_t> wrongPredictors(const MethodInfo& method) {
     std::vector<uint8_t> wrong;
     uint32_t free_bits = 0xff;
     for (const PredictorField& field : method) {
+      if (field.since != 0) continue;
       const uint8_t beyond = field.with(0, field.value_count);
       if (field.valueOf(beyond) == field.value_count) wrong.push_back(beyond);
       free_bits &= ~uint32_t{field.mask};
@@ -620,6 +622,30 @@ class Maker {
       };
       predictorsOf(m.name, wrongPredictors(m), number);
     }
+  }
+
+  /// Bits that minor version 1 added are wrong in version 1.0, others still are in 1.1.
+  void predictorsOfVersion11() {
+    const std::vector<Source> sources = tangentSources();
+    const auto tangents = [&](uint8_t minor, const Source& source, uint32_t predictor) {
+      const Asset asset = encodeSource(source);
+      const PayloadHeader before = headerOf(asset.payload);
+      const uint32_t last = before.pieces[0].attribute_count - 1;
+      const std::string name = infoOf(methodOf(before.attributesOf(before.pieces[0]), last)).name;
+      HeaderFields fields(asset.payload);
+      fields.set("0." + std::to_string(last) + ".predictor", predictor);
+      Bytes payload = fields.payload();
+      payload[kVersionOffset] = static_cast<uint8_t>(kVersionMajor << 4 | minor);
+      repairChecksum(payload);
+      const std::string version = "1." + std::to_string(minor);
+      add("predictor " + std::to_string(predictor) + " of " + name + " in " + version, "A.2.4",
+          Error::kBadHeader,
+          "A predictor that the method " + name + " does not have in version " + version, asset,
+          payload);
+    };
+    tangents(0, sources[2], tangent_method::kFaces);
+    tangents(1, sources[2], 4);
+    tangents(1, sources[0], tangent_method::kFaces);
   }
 
   void predictorsOf(const std::string& name, const std::vector<uint8_t>& predictors,

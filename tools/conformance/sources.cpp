@@ -174,6 +174,7 @@ class SourceBuilder {
 
   Random& random() { return random_; }
   SourcePiece& piece() { return piece_; }
+  Place at(uint32_t wedge) const { return {mesh_, wedge}; }
   SourcePiece take() { return std::move(piece_); }
 
   using Value = std::function<float(const Place&, uint32_t)>;
@@ -1189,6 +1190,79 @@ void mirroredSurfaces(std::vector<Source>& all) {
       single("isolated", "Isolated wedges have no images", withUnused(one, 3, 9), positions));
 }
 
+/// Triangles with wedges of their own, whose normals are smooth nevertheless.
+TestMesh sphereOfFaces() {
+  TestMesh mesh = flatShaded(icosphere(0));
+  mesh.normals = mesh.positions;
+  return mesh;
+}
+
+/// Two normals whose points on the grid of 4 bits, (5, 11) and (8, 4), have one key.
+TestMesh withTwoNormals(TestMesh mesh) {
+  mesh.normals.clear();
+  for (uint32_t w = 0; w < mesh.vertexCount(); ++w) {
+    const float scale = 1 / std::sqrt(w % 3 == 0 ? 21.0f : 19.0f);
+    for (const float x : w % 3 == 0 ? std::array{-2.0f, 4.0f, 1.0f} : std::array{1.0f, -3.0f, 3.0f})
+      mesh.normals.push_back(x * scale);
+  }
+  return mesh;
+}
+
+/// A waved sheet, one half of which is squeezed to a line, so that its faces have no area.
+TestMesh squeezedSheet() {
+  TestMesh mesh = withNormals(grid(6, 5));
+  float middle = 0;
+  for (size_t i = 1; i < mesh.positions.size(); i += 3) middle += mesh.positions[i];
+  middle /= static_cast<float>(mesh.vertexCount());
+  for (size_t i = 0; i < mesh.positions.size(); i += 3) {
+    float* p = &mesh.positions[i];
+    p[0] += 0.1f * p[1];
+    if (p[1] > middle) continue;
+    p[1] = middle;
+    p[2] = 0;
+  }
+  return mesh;
+}
+
+/// Texture coordinates that have no direction in one half.
+void halfChart(SourceBuilder& b) {
+  b.floats("TEXCOORD_0", kBase, "VEC2", 7,
+           [](const Place& at, uint32_t c) { return at.position(0) < 0 ? 0.5f : at.texcoord(c); });
+}
+
+/// A tangent in the plane of each face of a mesh without shared wedges.
+void tangentsOfFaces(SourceBuilder& b, uint8_t bits) {
+  b.floats("TANGENT", kBase, "VEC4", bits, [&](const Place& at, uint32_t c) {
+    const uint32_t first = at.wedge / 3 * 3;
+    if (c == 3) return first % 5 == 0 ? -1.0f : 1.0f;
+    const auto along = [&](uint32_t s) {
+      return 0.7 * double{b.at(first + 1).position(s)} + 0.3 * double{b.at(first + 2).position(s)} -
+             double{b.at(first).position(s)};
+    };
+    const double square = along(0) * along(0) + along(1) * along(1) + along(2) * along(2);
+    return static_cast<float>(along(c) / std::sqrt(square));
+  });
+}
+
+void anglesInHalfAChart(SourceBuilder& b) {
+  b.positions(8);
+  b.normals(4);
+  halfChart(b);
+  b.tangents(3, true);
+}
+
+Source repeatsInPieces() {
+  const auto fill = [](SourceBuilder& b) {
+    b.positions(8);
+    b.tangents(3, false);
+  };
+  Source source = single("tangents_repeats_in_pieces", "points without normals, in two pieces",
+                         torus(5, 4), fill);
+  source.pieces.push_back(source.pieces[0]);
+  source.options.variation = 6;  // which do not lie in faces
+  return source;
+}
+
 }  // namespace
 
 std::vector<Source> mirroredSources() {
@@ -1212,7 +1286,38 @@ std::vector<Source> mirroredSources() {
   for (Source& source : all) {
     source.name = "mirrors_" + source.name;
     source.shows = "Mirrors: " + source.shows;
-    source.may_have_mirrors = true;
+    source.options.without = {};
+  }
+  return all;
+}
+
+std::vector<Source> tangentSources() {
+  std::vector<Source> all;
+  const TestMesh cut = withTwoNormals(withRandomWedges(torus(6, 4), 4, 3));
+  all.push_back(
+      single("tangents_angles", "angles, one half without a chart", cut, anglesInHalfAChart));
+  all.push_back(single("tangents_one_per_face", "a tangent for each face, one half without a chart",
+                       sphereOfFaces(), [](SourceBuilder& b) {
+                         b.positions(8);
+                         b.normals(5);
+                         halfChart(b);
+                         tangentsOfFaces(b, 8);
+                       }));
+  all.push_back(single("tangents_flat_faces",
+                       "points at faces without an area, beside exact normals", squeezedSheet(),
+                       [](SourceBuilder& b) {
+                         b.positions(8);
+                         b.normals(0, Floats::kBinary);
+                         b.texcoords("TEXCOORD_0", 7);
+                         b.tangents(6, false);
+                       }));
+  all.back().options.variation = 3;  // which lie in faces
+  all.push_back(repeatsInPieces());
+  all.push_back(inBlocks("of_tangents", "angles", cut, 20, 1, anglesInHalfAChart));
+  for (Source& source : all) {
+    source.shows = "Version 1.1: " + source.shows;
+    source.options.without = {};
+    source.options.without.add(Feature::kMirrors);
   }
   return all;
 }

@@ -29,6 +29,8 @@ std::vector<Source> rareSources();
 
 /// Sources of version 1.1, with mirrors. The first has positions on a lattice alone.
 std::vector<Source> mirroredSources();
+/// Sources of assets of minor version 1: tangents that repeat, or lie in faces.
+std::vector<Source> tangentSources();
 
 /// A random source: surface, attributes, options. The same for the same seed on every machine.
 Source randomSource(uint64_t seed);

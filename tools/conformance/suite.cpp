@@ -289,6 +289,7 @@ Suite makeSuite() {
     Asset asset = encodeSource(source);
     if (asset.payload[kVersionOffset] != kVersionMajor << 4) addAsset(candidates, std::move(asset));
   }
+  for (const Source& source : tangentSources()) addAsset(candidates, encodeSource(source));
   numberNames(candidates);
   Suite suite;
   Json manifest = {{"extension", gltf::kExtensionName},

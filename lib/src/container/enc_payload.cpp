@@ -1,10 +1,12 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "container/enc_payload.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "base/bytes.h"
 #include "base/enc_bytes.h"
+#include "format/predictors.h"
 #include "format/usual.h"
 
 namespace mcc {
@@ -139,18 +141,24 @@ uint32_t writePadding(ByteWriter& out, const PayloadHeader& header, uint64_t hav
   return flags | payload_flag::kPadded;
 }
 
-/// Returns the first minor version that has all that the payload uses.
-uint32_t minorVersionOf(const PayloadHeader& header) {
-  for (size_t i = 0; i < header.pieces.size(); ++i) {
-    if (header.pieces[i].has(piece_flag::kMirrors)) return 1;
+/// The lowest version that has everything the payload uses.
+uint8_t neededMinorVersion(const PayloadHeader& header) {
+  uint8_t version = 0;
+  for (size_t p = 0; p < header.pieces.size(); ++p) {
+    if (header.pieces[p].has(piece_flag::kMirrors)) version = std::max(version, uint8_t{1});
+    const AttributeInfos attributes = header.attributesOf(header.pieces[p]);
+    for (uint32_t i = 0; i < attributes.size(); ++i) {
+      const AttributeMethod method = methodOf(attributes, i);
+      version = std::max(version, minorVersionOf(method, attributes[i].predictor));
+    }
   }
-  return 0;
+  return version;
 }
 
 ByteWriter beginPayload(const PayloadHeader& header, uint32_t flags) {
   ByteWriter out;
   out.writeU8(kMagic);
-  out.writeU8(static_cast<uint8_t>(kVersionMajor << 4 | minorVersionOf(header)));
+  out.writeU8(static_cast<uint8_t>(kVersionMajor << 4 | neededMinorVersion(header)));
   out.writeU32(0);  // the checksum
   out.writeU8(static_cast<uint8_t>(flags));
   return out;

@@ -149,8 +149,8 @@ Status parseAttribute(ByteReader& in, AttributeInfos before, AttributeInfo& a) {
 }
 
 /// Checks that aliases refer to earlier attributes that are neither aliases nor the position, that
-/// tangents have normals, and that predictors are known.
-Status checkReferences(AttributeInfos all, size_t at) {
+/// tangents have normals, and that predictors are known in the payload's version.
+Status checkReferences(AttributeInfos all, uint8_t version_minor, size_t at) {
   for (uint32_t i = 0; i < all.size(); ++i) {
     if (all[i].coding == AttributeCoding::kAlias) {
       const uint32_t source = all[i].alias_of;
@@ -166,6 +166,10 @@ Status checkReferences(AttributeInfos all, size_t at) {
     const AttributeMethod method = methodOf(all, i);
     if (!isKnownPredictor(method, all[i].predictor)) {
       return fail(Error::kBadHeader, "an attribute has an unknown predictor", at);
+    }
+    // The core has none of what later versions added.
+    if (kWhole && minorVersionOf(method, all[i].predictor) > version_minor) {
+      return fail(Error::kBadHeader, "a predictor is not in the payload's version", at);
     }
     if (!isDecoded(method, all[i].predictor))
       return fail(kNotInCore, "the core lacks a predictor", at);
@@ -208,7 +212,7 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
     if (!header.attributes.push_back(a))
       return fail(Error::kOutOfMemory, "no memory for the header");
   }
-  MCC_TRY(checkReferences(header.attributesOf(piece), at));
+  MCC_TRY(checkReferences(header.attributesOf(piece), header.version_minor, at));
   const AttributeInfo& position = header.attributes[piece.first_attribute];
   if (!isBasePosition(position) || position.format.component_count != 3 ||
       (position.coding != AttributeCoding::kLattice &&

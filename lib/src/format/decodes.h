@@ -28,6 +28,7 @@ inline constexpr bool kPivots = kWhole;       ///< faces coded vertex by vertex
 inline constexpr bool kPlanes = kWhole;       ///< planes of positions
 inline constexpr bool kMirrors = kWhole;      ///< mirrored halves of positions
 inline constexpr bool kTangentPoints = kWhole;
+inline constexpr bool kTangentRepeats = kWhole;
 inline constexpr bool kBlocks = kWhole;  ///< surfaces cut into blocks
 }  // namespace decodes
 

@@ -58,6 +58,11 @@ namespace exact_tangent_method {
 inline constexpr uint8_t kPerpendicular = 0x01;  ///< perpendicular to the exact normal
 }  // namespace exact_tangent_method
 
+namespace tangent_method {                 // both methods of quantised tangents
+inline constexpr uint8_t kRepeats = 0x01;  ///< flags for tangents that one seen before is equal to
+inline constexpr uint8_t kFaces = 0x02;    ///< of points: they lie in the faces' planes
+}  // namespace tangent_method
+
 namespace texcoord_method {
 inline constexpr uint8_t kHinge = 0x01;  ///< otherwise the diagonal
 inline constexpr uint8_t kRemembers = 0x02;
@@ -92,6 +97,7 @@ struct PredictorField {
   Feature feature;      ///< without it, the encoder does not try other values than the first
   PredictorValue value[3];
   bool is_decoded = true;  ///< otherwise this decoder knows value 0 only
+  uint8_t since = 0;       ///< minor version of the format that added the field
 
   constexpr uint8_t shift() const { return static_cast<uint8_t>(std::countr_zero(mask)); }
   constexpr uint8_t valueOf(uint8_t predictor) const {
@@ -127,6 +133,12 @@ inline constexpr PredictorField kNormalWeight = {
     {{"area", "", 0}, {"angle", "A.10.7", 0}, {"sine", "", 0}}};
 inline constexpr PredictorField kNormalBlend = {
     normal_method::kBlend, 2, Feature::kNormalBlend, {{"", "", 0}, {"blend", "", 0}}};
+
+/// It comes after the equalities, which spare much of what repeats, too: chosen first, it would
+/// hide what they gain.
+inline constexpr PredictorField kTangentRepeats = {
+    tangent_method::kRepeats, 2, Feature::kTangentRepeats, {{"", "", 0}, {"repeats", "A.10.19", 5}},
+    decodes::kTangentRepeats, 1};
 
 /// A mode of positions.
 constexpr PredictorField modeField(uint8_t mask, Feature feature, const char* word,
@@ -188,15 +200,22 @@ inline constexpr MethodInfo kMethods[] = {
      "chart",
      "A.10.13 A.10.12 A.10.7",
      kHasEqualities,
-     1,
-     {detail::kEqualities}},
+     2,
+     {detail::kEqualities, detail::kTangentRepeats}},
     {AttributeMethod::kTangentPoint,
      "tangent point",
      "chart",
      "A.10.13 A.10.12 A.10.6",
      kHasEqualities,
-     1,
-     {detail::kEqualities},
+     3,
+     {detail::kEqualities,
+      detail::kTangentRepeats,
+      {tangent_method::kFaces,
+       2,
+       Feature::kTangentFaces,
+       {{"", "", 0}, {"faces", "A.10.19", 5}},
+       true,
+       1}},
      decodes::kTangentPoints},
     {AttributeMethod::kSkin,
      "skin",
@@ -257,6 +276,15 @@ constexpr bool isValidPredictor(AttributeMethod method, uint8_t predictor) {
   }
   return rest == 0 &&
          (method != AttributeMethod::kPosition || position_mode::goTogether(predictor));
+}
+
+/// The minor version of the format that has everything a byte asks for.
+constexpr uint8_t minorVersionOf(AttributeMethod method, uint8_t predictor) {
+  uint8_t version = 0;
+  for (const PredictorField& field : infoOf(method)) {
+    if (field.valueOf(predictor) != 0 && field.since > version) version = field.since;
+  }
+  return version;
 }
 
 /// The bits of a method's byte that this decoder knows.

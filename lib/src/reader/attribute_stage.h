@@ -284,7 +284,8 @@ class AttributeStage {
     const bool projects = hasNormals(attributes_);
     if (projects) MCC_TRY(listNormals());
     return run<TangentPointCoder>(job, models_.tangent_points,
-                                  projects ? unit_normals_.data() : nullptr, floats_.data());
+                                  projects ? unit_normals_.data() : nullptr,
+                                  normal_ != kNone ? normals.data() : nullptr, floats_.data());
   }
 
   /// Normals as vectors: what tangents on a grid are perpendicular to.

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "format/predictors.h"
 #include "surface/face_pass.h"
@@ -136,6 +137,13 @@ class OctahedralFrame {
     const int32_t y_negative = -((y < 0) | ((y == 0) & (x < 0)));
     p[0] = ((centre - std::abs(y)) ^ x_negative) - x_negative;
     p[1] = ((centre - std::abs(x)) ^ y_negative) - y_negative;
+  }
+
+  /// Turns a small step from the predicted point as points near it are turned. `step` is seen from
+  /// inside the diamond.
+  void turnStep(float* step) const {
+    for (int k = 0; k < 2; ++k) step[k] = flip_[k] != 0 ? -step[k] : step[k];
+    if (swap_ != 0) std::swap(step[0], step[1]);
   }
 
   void residualOf(const int32_t* point, int32_t* residual) const {

@@ -18,12 +18,14 @@
 #include "values/residuals.h"
 #include "vectors/normals.h"
 #include "vectors/octahedral.h"
+#include "vectors/tangent_repeats.h"
 
 namespace mcc {
 
 struct TangentModels {
   TokenRow row[kLengthContexts];
   BitModel negative[3];  ///< [predicted: unknown, positive, negative]
+  TangentRepeatModels repeats;
 
   TangentModels() {
     for (TokenRow& r : row) r.setUniform();
@@ -193,7 +195,8 @@ class TangentCoder {
         bits_(job.info.bits),
         centre_(octahedralCentre(normal_info.bits)),
         normals_(normals),
-        sums_(sums) {}
+        sums_(sums),
+        repeats_(job, models.repeats, normals) {}
 
   void run() {
     gatherGroups(job_.wedges, job_.groups, sums_);
@@ -214,6 +217,7 @@ class TangentCoder {
   float* const
       sums_;  ///< then: steps of the predicted angle, whether there are any, -, sum of signs
   int32_t last_ = 0;
+  TangentRepeats<Io, 2> repeats_;
 };
 
 /// Angles of the sums of wedges w .. w+3 in the planes of their normals.
@@ -246,6 +250,10 @@ MCC_INLINE void TangentCoder<Io>::predictFour(uint32_t w) {
 template <class Io>
 void TangentCoder<Io>::codeGroup(uint32_t w) {
   const float* sum = sums_ + 4 * size_t{w};
+  if (repeats_.code(w, sum[1] != 0)) {
+    last_ = job_.values[2 * size_t{w}];
+    return;
+  }
   const uint32_t entry = job_.entryFace(w);
   int32_t predicted = last_;
   uint32_t context = kNoNeighbours;

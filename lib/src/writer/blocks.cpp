@@ -401,7 +401,7 @@ class BlocksEncoder {
     Variation variation(options_.variation);
     EncodeSettings options = options_;
     options.without.add(Feature::kMirrors);  // blocks have none
-    MCC_TRY(variation.active() ? varyAll(plans, options.without, variation)
+    MCC_TRY(variation.active() ? varyAll(plans, variation, options.without)
                                : chooseAll(plans, options, jobs_));
     chosen_ = choicesOf(plans[0]);
     std::swap(plans[0], taken_[sample()]->plan);

@@ -211,11 +211,12 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, const EncoderIo
 }
 
 /// Chooses at random, instead of chooseAttributeMethod().
-void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation) {
+void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation,
+                         const FeatureSet& without) {
   std::vector<AttributeInfo> infos;
   for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
   infos[index] = variation.oneOf(exactAlternatives(infos[index], {}));
-  variation.predictors(infos, index);
+  variation.predictors(infos, index, without);
   for (size_t i = 0; i < infos.size(); ++i) plan.attributes[i].info = infos[i];
 }
 
@@ -291,7 +292,7 @@ void varyMirrors(std::vector<Plan>& plans, std::span<const PositionCandidate> ca
 
 }  // namespace
 
-Status varyAll(std::vector<Plan>& plans, const FeatureSet& without, Variation& variation) {
+Status varyAll(std::vector<Plan>& plans, Variation& variation, const FeatureSet& without) {
   StageModels models;
   EncoderIo io;
   Runners runners;
@@ -313,7 +314,7 @@ Status varyAll(std::vector<Plan>& plans, const FeatureSet& without, Variation& v
     plan.attributes[0].info.predictor = positions.modes;
     if (plan.header.has(piece_flag::kSeams) && variation.coin())
       plan.header.flags ^= piece_flag::kCreases;
-    for (const uint32_t a : codingOrder(plan)) varyAttributeMethod(plan, a, variation);
+    for (const uint32_t a : codingOrder(plan)) varyAttributeMethod(plan, a, variation, without);
   }
   if (!without.has(Feature::kMirrors)) varyMirrors(plans, candidates, variation.apart());
   return {};

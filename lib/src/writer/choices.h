@@ -21,7 +21,7 @@ Status chooseSurface(Plan& plan, uint32_t start_half_edge, const FeatureSet& wit
 Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs);
 
 /// Chooses at random instead of chooseAll(), for tests.
-Status varyAll(std::vector<Plan>& plans, const FeatureSet& without, Variation& variation);
+Status varyAll(std::vector<Plan>& plans, Variation& variation, const FeatureSet& without);
 
 }  // namespace mcc
 

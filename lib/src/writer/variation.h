@@ -74,8 +74,9 @@ class Variation {
   }
 
   /// Sets the predictor of attribute `index` and of its partner to any that are valid for their
-  /// values.
-  void predictors(std::vector<AttributeInfo>& infos, uint32_t index) {
+  /// values. Fields that a later version added are drawn beside the sequence, which thus stays what
+  /// it was; those of features in `without` are left at 0.
+  void predictors(std::vector<AttributeInfo>& infos, uint32_t index, const FeatureSet& without) {
     AttributeInfo& info = infos[index];
     const AttributeMethod method = methodOf(infos, index);
     if (isWithAnother(method)) return;
@@ -87,7 +88,13 @@ class Variation {
     }
     do {
       info.predictor = static_cast<uint8_t>(below(256));
-    } while (!isValidPredictor(method, info.predictor));
+    } while (!isValidPredictor(method, info.predictor) ||
+             minorVersionOf(method, info.predictor) != 0);
+    Variation beside(~state_);
+    for (const PredictorField& field : infoOf(method)) {
+      if (field.since == 0 || without.has(field.feature)) continue;
+      info.predictor = field.with(info.predictor, beside.below(field.value_count));
+    }
   }
 
  private:

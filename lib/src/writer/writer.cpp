@@ -85,7 +85,7 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeSettings& opt
   }
   if (!result.payload.empty()) return {};
   Variation variation(options.variation);
-  MCC_TRY(variation.active() ? varyAll(plans, options.without, variation)
+  MCC_TRY(variation.active() ? varyAll(plans, variation, options.without)
                              : chooseAll(plans, options, jobs));
   return codePayload(plans, options, variation, result);
 }

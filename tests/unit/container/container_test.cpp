@@ -72,6 +72,7 @@ AttributeInfo anyAttribute(Random& random) {
     const bool is_tangent = a.format.semantic == Semantic::kTangent;
     if (is_tangent) a.format.morph_target = 0;
     a.format.component_count = is_tangent ? 4 : 3;
+    if (is_tangent) a.predictor = static_cast<uint8_t>(random.below(4));
     a.bits = static_cast<uint8_t>(random.between(2, 16));
   } else {
     a.format.component_count = static_cast<uint8_t>(random.between(1, 4));
@@ -174,6 +175,21 @@ Draft anyDraft(uint64_t seed) {
   return draft;
 }
 
+/// The lowest minor version that has everything in `draft`.
+uint8_t versionOf(const Draft& draft) {
+  uint8_t version = 0;
+  for (const Draft::Piece& piece : draft.pieces) {
+    if (piece.header.has(piece_flag::kMirrors)) version = 1;
+    for (const AttributeInfo& a : piece.attributes) {
+      const bool is_tangent_point =
+          a.format.semantic == Semantic::kTangent && a.coding == AttributeCoding::kOctahedral;
+      constexpr uint32_t kOf11 = tangent_method::kRepeats | tangent_method::kFaces;
+      if (is_tangent_point && (a.predictor & kOf11) != 0) version = 1;
+    }
+  }
+  return version;
+}
+
 Error parseError(std::span<const uint8_t> payload, const Limits& limits = {}) {
   PayloadHeader header{Allocator{}};
   const Status status = parsePayload(payload, limits, header);
@@ -208,11 +224,7 @@ TEST(Container, EveryFieldComesBack) {
     PayloadHeader parsed{Allocator{}};
     const Status status = parsePayload(payload, {}, parsed);
     ASSERT_TRUE(status.ok()) << seed << ": " << status.what;
-    // What uses nothing of a later minor version is written as the first one.
-    const bool mirrors = std::any_of(
-        draft.pieces.begin(), draft.pieces.end(),
-        [](const Draft::Piece& piece) { return piece.header.has(piece_flag::kMirrors); });
-    EXPECT_EQ(parsed.version_minor, mirrors ? 1 : 0);
+    EXPECT_EQ(parsed.version_minor, versionOf(draft));
     EXPECT_EQ(parsed.singleCoder(), (draft.flags & payload_flag::kSingleCoder) != 0);
     ASSERT_EQ(parsed.pieces.size(), draft.pieces.size());
     for (size_t p = 0; p < draft.pieces.size(); ++p) {
@@ -284,6 +296,29 @@ TEST(Container, Versions) {
     const Error error = parsePayload(payload, {}, parsed).error;
     EXPECT_EQ(error, version >> 4 == 1 ? Error::kOk : Error::kUnsupportedVersion);
     EXPECT_TRUE(error != Error::kOk || parsed.version_minor == (version & 15));
+  }
+}
+
+/// Tangents may repeat, or lie in faces, since 1.1: the same header is refused as one of 1.0.
+TEST(Container, PredictorsOfLaterVersions) {
+  for (const uint32_t predictor : {0u, 1u, 2u, 3u, 0x83u}) {
+    Draft draft = simpleDraft();
+    AttributeInfo tangent;
+    tangent.format.semantic = Semantic::kTangent;
+    tangent.format.component_count = 4;
+    tangent.coding = AttributeCoding::kOctahedral;
+    tangent.bits = 8;
+    tangent.predictor = static_cast<uint8_t>(predictor);
+    draft.pieces[0].attributes.push_back(tangent);
+    std::vector<uint8_t> payload = draft.write();
+    const bool is_new = (predictor & 3) != 0;
+    EXPECT_EQ(payload[kVersionOffset], is_new ? 0x11 : 0x10) << predictor;
+    for (uint32_t minor = 0; minor < 16; ++minor) {
+      payload[kVersionOffset] = static_cast<uint8_t>(kVersionMajor << 4 | minor);
+      repairChecksum(payload);
+      EXPECT_EQ(parseError(payload), is_new && minor == 0 ? Error::kBadHeader : Error::kOk)
+          << predictor << ", minor version " << minor;
+    }
   }
 }
 
