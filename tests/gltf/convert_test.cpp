@@ -61,7 +61,9 @@ TEST(Convert, BoundsAreThoseOfTheDecodedData) {
         min =
             std::min(min, componentValue(data.element(i).data() + 4 * c, ComponentType::kFloat32));
       }
-      EXPECT_EQ(json["accessors"][accessor]["min"][c].get<double>(), min);
+      const Json& spelt = json["accessors"][accessor]["min"][c];
+      EXPECT_EQ(static_cast<float>(spelt.get<double>()), min);
+      EXPECT_LE(printJson(spelt).size(), 13u) << "as few digits as a float needs";
     }
   }
   EXPECT_FALSE(json["accessors"][1].contains("max"));
@@ -649,6 +651,53 @@ TEST(Convert, PiecesOfAMeshShareAPayload) {
             primitives[1]["extensions"][kExtensionName]["bufferView"]);
 }
 
+TEST(Convert, SmallMeshesShareAPayload) {
+  Builder builder;
+  builder.addMesh({Sheet(6).addTo(builder)});
+  builder.addMesh({Sheet(20).addTo(builder)});  // too large
+  builder.addMesh({Sheet(7).addTo(builder), Sheet(8, 0.3f).addTo(builder)});
+  for (int i = 0; i < 2; ++i) builder.addMesh({Sheet(9).addTo(builder)});  // equal
+  builder.addMesh({Sheet(5).addTo(builder)});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_EQ(trip.report.payloads.size(), 4u);
+  const Json json = jsonOf(trip.converted);
+  const auto placeOf = [&](size_t mesh, size_t primitive) {
+    const Json& extension =
+        json["meshes"][mesh]["primitives"][primitive]["extensions"][kExtensionName];
+    const uint64_t piece = extension.contains("piece") ? extension["piece"].get<uint64_t>() : 0;
+    return std::pair{extension["bufferView"].get<uint64_t>(), piece};
+  };
+  const uint64_t shared = placeOf(0, 0).first;
+  EXPECT_EQ(placeOf(0, 0), (std::pair{shared, uint64_t{0}}));
+  EXPECT_EQ(placeOf(2, 0), (std::pair{shared, uint64_t{1}}));
+  EXPECT_EQ(placeOf(2, 1), (std::pair{shared, uint64_t{2}}));
+  EXPECT_EQ(placeOf(5, 0), (std::pair{shared, uint64_t{3}}));
+  EXPECT_NE(placeOf(1, 0).first, shared);
+  // Equal meshes have equal payloads, which brotli and gzip find.
+  EXPECT_NE(placeOf(3, 0).first, shared);
+  EXPECT_NE(placeOf(3, 0).first, placeOf(4, 0).first);
+}
+
+/// Each mesh keeps its lattice and its order, whatever the others of the payload have.
+TEST(Convert, SmallMeshesKeepLatticesAndOrders) {
+  Builder builder;
+  Sheet far(6);
+  for (float& x : far.positions) x = x * 1000 + 5000;
+  builder.addMesh({Sheet(7).addTo(builder)});
+  builder.addMesh({far.addTo(builder)});
+  Json ordered = Sheet(8).addTo(builder);
+  ordered["extensions"]["VENDOR_order"] = Json::object();
+  builder.addMesh({ordered});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  ASSERT_EQ(trip.report.payloads.size(), 2u) << "the order of one mesh must not cost the others";
+  EXPECT_EQ(trip.report.payloads[0].piece_count, 2u);
+  const Json json = jsonOf(trip.decoded);
+  const double near_low = json["accessors"][0]["min"][0].get<double>();
+  EXPECT_NEAR(near_low, 0, 1e-3);
+}
+
 TEST(Convert, PrimitivesOfAMeshShareTheirGrid) {
   // Two sheets side by side; the vertices of the common edge must stay together.
   Builder builder;
@@ -955,6 +1004,21 @@ TEST(Convert, TinyPrimitivesOfALargeMeshStayAsTheyWere) {
   EXPECT_FALSE(isCompressed(json, 0, 1));
   EXPECT_TRUE(isCompressed(json, 0, 2)) << "its corners are also the first one's";
   EXPECT_TRUE(hasNote(trip.report, "/meshes/0/primitives/1: would not become smaller"));
+}
+
+/// Primitives of different meshes may have equal positions, and do not meet there.
+TEST(Convert, TinyMeshesDoNotTouchEachOther) {
+  Builder builder;
+  for (const uint32_t size : {6u, 7u}) builder.addMesh({Sheet(size).addTo(builder)});
+  const Sheet tiny(1);  // it has the corners of the others
+  builder.addMesh({{{"attributes", {{"POSITION", builder.addPositions(tiny.positions)}}},
+                    {"indices", builder.addIndices(tiny.indices)}}});
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  const Json json = jsonOf(trip.converted);
+  EXPECT_TRUE(isCompressed(json, 0, 0));
+  EXPECT_TRUE(isCompressed(json, 1, 0));
+  EXPECT_FALSE(isCompressed(json, 2, 0));
 }
 
 TEST(Convert, OneViewForAllIsTrimmed) {

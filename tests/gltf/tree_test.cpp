@@ -9,6 +9,7 @@
 #include <set>
 
 #include "gltf-mcc/tree_of_edges.h"
+#include "gltf/document/references.h"
 #include "gltf/files/file_io.h"
 #include "gltf/round_trip.h"
 #include "mcc/files.h"
@@ -209,6 +210,18 @@ TEST(InspectDetails, TheSurfaceSaysHowItIsCoded) {
   EXPECT_EQ(surfaceOf(sample("moebius.glb")), SurfaceCoding::kBoundaryCopies);
 }
 
+/// Returns the paths of the primitives that use a piece.
+std::set<std::string> usersOf(const Json& json, uint64_t view, uint64_t piece) {
+  std::set<std::string> users;
+  visitPrimitives(json, [&](const PrimitiveRef& ref, const Json& primitive) {
+    const Json* extension = extensionOf(primitive, kExtensionName);
+    if (extension == nullptr || (*extension)["bufferView"] != view) return;
+    const Json* number = findMember(*extension, "piece");
+    if (piece == (number == nullptr ? 0 : number->get<uint64_t>())) users.insert(ref.path());
+  });
+  return users;
+}
+
 TEST(InspectDetails, BoundsHoldAndPredictorsHaveNames) {
   for (const char* name : {"textured.glb", "skinned.glb", "morphed.glb", "modes.glb"}) {
     std::vector<uint8_t> output;
@@ -216,22 +229,33 @@ TEST(InspectDetails, BoundsHoldAndPredictorsHaveNames) {
     ASSERT_TRUE(convertGlb(sample(name), {}, output, converted).ok());
     InspectReport report;
     ASSERT_TRUE(inspectGlb(output, true, report).ok());
+    const Json json = jsonOf(output);
+    size_t checked = 0;
     for (size_t i = 0; i < report.payloads.size(); ++i) {
-      for (const InspectPiece& piece : report.payloads[i].pieces) {
+      for (size_t number = 0; number < report.payloads[i].pieces.size(); ++number) {
+        const InspectPiece& piece = report.payloads[i].pieces[number];
+        const std::set<std::string> users = usersOf(json, report.payloads[i].buffer_view, number);
+        ASSERT_FALSE(users.empty());
         for (size_t k = 0; k < piece.details.size(); ++k) {
           const InspectAttribute& details = piece.details[k];
           SCOPED_TRACE(std::string(name) + " " + details.name);
           EXPECT_EQ(details.predictor.empty(),
                     piece.attributes[k].coding == AttributeCoding::kAlias);
           for (const AttributeReport& attribute : converted.payloads[i].attributes) {
-            if (attribute.name != details.name || piece.attributes[k].bits != attribute.bits)
+            const auto& paths = attribute.primitives;
+            const bool is_of_piece =
+                std::find(paths.begin(), paths.end(), *users.begin()) != paths.end();
+            if (!is_of_piece || attribute.name != details.name ||
+                piece.attributes[k].bits != attribute.bits)
               continue;
+            ++checked;
             EXPECT_EQ(details.is_angle, attribute.is_angle);
             EXPECT_LE(attribute.max_error, details.error_bound * 1.01 + 1e-6);
           }
         }
       }
     }
+    EXPECT_GT(checked, 0u);
   }
 }
 

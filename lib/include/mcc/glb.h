@@ -173,7 +173,7 @@ struct PayloadReport {
   uint32_t block_count = 0;   ///< 0: not cut into blocks
   std::string whole_because;  ///< why not, if blocks were asked for
   std::vector<StreamReport> streams;
-  /// Attributes of several pieces are merged where name, coding and bits are the same.
+  /// Attributes of several pieces are merged where mesh, name, coding and bits are the same.
   std::vector<AttributeReport> attributes;
 };
 

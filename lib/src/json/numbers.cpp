@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #if !defined(__cpp_lib_to_chars)
 #include <clocale>
@@ -64,7 +65,8 @@ Decimal decimalOf(const char* begin, const char* end) {
   return decimal;
 }
 
-Decimal shortestDecimal(double value) {
+template <std::floating_point T>
+Decimal shortestDecimal(T value) {
   char text[128];
   constexpr auto kForm = std::chars_format::scientific;
   Decimal shortest = decimalOf(text, std::to_chars(text, text + sizeof text, value, kForm).ptr);
@@ -78,6 +80,26 @@ Decimal shortestDecimal(double value) {
                        more.starts_with(shortest.digits);
   if (is_half && shortest.digits.back() != '9') ++shortest.digits.back();
   return shortest;
+}
+
+template <std::floating_point T>
+std::string shortestSpelling(T value) {
+  if (value == 0) return std::signbit(value) ? "-0.0" : "0.0";
+  const auto [digits, point] = shortestDecimal(std::abs(value));
+  const auto size = static_cast<int>(digits.size());
+  const std::string sign = value < 0 ? "-" : "";
+  const auto zeros = [](int count) { return std::string(static_cast<size_t>(count), '0'); };
+  constexpr int kMostDigits = 15;
+  constexpr int kMostZeros = 4;
+  if (size <= point && point <= kMostDigits) return sign + digits + zeros(point - size) + ".0";
+  if (0 < point && point <= kMostDigits) {
+    return sign + digits.substr(0, static_cast<size_t>(point)) + "." +
+           digits.substr(static_cast<size_t>(point));
+  }
+  if (-kMostZeros < point && point <= 0) return sign + "0." + zeros(-point) + digits;
+  const std::string exponent = std::to_string(std::abs(point - 1));
+  return sign + digits.substr(0, 1) + (size == 1 ? "" : ".") + digits.substr(1) +
+         (point < 1 ? "e-" : "e+") + (exponent.size() < 2 ? "0" : "") + exponent;
 }
 
 }  // namespace
@@ -119,23 +141,13 @@ bool areEqualNumbers(std::string_view a, std::string_view b) {
   return !are_plain && numberOf(a) == numberOf(b);
 }
 
-std::string spellingOf(double value) {
-  if (value == 0) return std::signbit(value) ? "-0.0" : "0.0";
-  const auto [digits, point] = shortestDecimal(std::abs(value));
-  const auto size = static_cast<int>(digits.size());
-  const std::string sign = value < 0 ? "-" : "";
-  const auto zeros = [](int count) { return std::string(static_cast<size_t>(count), '0'); };
-  constexpr int kMostDigits = 15;
-  constexpr int kMostZeros = 4;
-  if (size <= point && point <= kMostDigits) return sign + digits + zeros(point - size) + ".0";
-  if (0 < point && point <= kMostDigits) {
-    return sign + digits.substr(0, static_cast<size_t>(point)) + "." +
-           digits.substr(static_cast<size_t>(point));
-  }
-  if (-kMostZeros < point && point <= 0) return sign + "0." + zeros(-point) + digits;
-  const std::string exponent = std::to_string(std::abs(point - 1));
-  return sign + digits.substr(0, 1) + (size == 1 ? "" : ".") + digits.substr(1) +
-         (point < 1 ? "e-" : "e+") + (exponent.size() < 2 ? "0" : "") + exponent;
+std::string spellingOf(double value) { return shortestSpelling(value); }
+
+std::string spellingOf(float value) {
+  std::string shortest = shortestSpelling(value);
+  // Most readers go through binary64, which rounds twice.
+  const bool is_read_back = static_cast<float>(numberOf(shortest)) == value;
+  return is_read_back ? shortest : spellingOf(double{value});
 }
 
 }  // namespace mcc::gltf

@@ -27,6 +27,10 @@ bool areEqualNumbers(std::string_view a, std::string_view b);
 /// larger one if two are as near. Its exponent and its point stand where people expect them.
 std::string spellingOf(double value);
 
+/// The same for readers that round what they read to binary32, as glTF's do with `min` and `max` of
+/// floats: nine digits at most instead of seventeen.
+std::string spellingOf(float value);
+
 }  // namespace mcc::gltf
 
 #endif  // MCC_JSON_NUMBERS_H_

@@ -12,6 +12,7 @@
 
 #include "json/json.h"
 #include "json/json_scanner.h"
+#include "json/numbers.h"
 #include "support/gltf_builder.h"
 
 namespace mcc::gltf::test {
@@ -378,6 +379,27 @@ TEST(Json, NumbersAreSpeltAsShortAsTheyCanBe) {
     const double value = std::bit_cast<double>(random());
     if (!std::isfinite(value)) continue;
     ASSERT_EQ(Json::parse(Json(value).dump()).get<double>(), value);
+  }
+}
+
+/// Readers round the numbers of `min` and `max` to binary32, most of them by way of binary64.
+TEST(Json, FloatsAreSpeltAsShortAsFloatsCanBe) {
+  const std::pair<float, const char*> kSpellings[] = {{0.1f, "0.1"},
+                                                      {-0.0f, "-0.0"},
+                                                      {3, "3.0"},
+                                                      {0.44999998807907104f, "0.45"},
+                                                      {-73.14839935302734f, "-73.1484"},
+                                                      {16777216, "16777216.0"},
+                                                      {1e-45f, "1e-45"},
+                                                      {3.4028234663852886e38f, "3.4028235e+38"}};
+  for (const auto& [value, spelling] : kSpellings) EXPECT_EQ(spellingOf(value), spelling);
+  std::mt19937 random(3);
+  for (int i = 0; i < 200000; ++i) {
+    const auto value = std::bit_cast<float>(static_cast<uint32_t>(random()));
+    if (!std::isfinite(value)) continue;
+    const std::string spelling = spellingOf(value);
+    ASSERT_EQ(static_cast<float>(numberOf(spelling)), value) << spelling;
+    ASSERT_LE(spelling.size(), spellingOf(double{value}).size());
   }
 }
 

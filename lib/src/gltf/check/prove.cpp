@@ -117,11 +117,12 @@ class Prover {
     return {};
   }
 
-  /// Returns the row of an attribute. Pieces whose codings differ have separate rows, because the
-  /// bound of one does not hold for the other.
-  size_t rowOf(const AttributePlan& attribute, AttributeCoding coding, uint8_t bits) {
+  /// Returns the row of an attribute. Pieces whose meshes or codings differ have separate rows,
+  /// because the bound of one does not hold for the other.
+  size_t rowOf(uint32_t mesh, const AttributePlan& attribute, AttributeCoding coding,
+               uint8_t bits) {
     const auto [found, is_new] =
-        row_of_.try_emplace({attribute.label(), coding, bits}, proof_.attributes.size());
+        row_of_.try_emplace({mesh, attribute.label(), coding, bits}, proof_.attributes.size());
     const size_t row = found->second;
     if (is_new) {
       AttributeReport& report = proof_.attributes.emplace_back();
@@ -165,7 +166,7 @@ class Prover {
     Promise promise;
     MCC_GLTF_TRY(promiseOf(attribute, coded, normalBits(piece), promise));
     const uint8_t bits = promise.kind == Promise::Kind::kExact ? uint8_t{0} : attribute.bits;
-    const size_t row = rowOf(attribute, coded.coding, bits);
+    const size_t row = rowOf(piece.mesh(), attribute, coded.coding, bits);
     AttributeReport& report = proof_.attributes[row];
     report.vertex_count += piece.wedge_count;
     for (const PartPlan& part : piece.parts) {
@@ -226,7 +227,7 @@ class Prover {
   DecodedPayload decoded_;
   std::vector<std::vector<float>> angles_;  ///< per row
   std::vector<Box> boxes_;                  ///< of the positions, per row
-  std::map<std::tuple<std::string, AttributeCoding, uint8_t>, size_t> row_of_;
+  std::map<std::tuple<uint32_t, std::string, AttributeCoding, uint8_t>, size_t> row_of_;
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace mcc::gltf {
 
 /// What was measured on a payload.
 struct PayloadProof {
-  /// Attributes with the same name, coding and bits share a row.
+  /// Attributes of a mesh with the same name, coding and bits share a row.
   std::vector<AttributeReport> attributes;
   /// The row of each attribute of each piece, in the order of the plan.
   std::vector<size_t> rows;

@@ -198,6 +198,7 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
     planUnused(options, plans, compressed.notes);
     planQuantization(options, plans, compressed.notes);
   }
+  gatherPayloads(plans);
   if (!options.allow_larger) {
     MCC_GLTF_TRY(dropTinyPieces(document, options, plans, compressed.left_alone));
   }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "base/crc32.h"
 #include "gltf/document/references.h"
 #include "host/text.h"
 #include "mesh/face_mesh.h"
@@ -431,6 +432,90 @@ void splitPayloads(const ConvertOptions& options, std::vector<PayloadPlan>& payl
     }
   }
   payloads = std::move(split);
+}
+
+namespace {
+
+/// The payload of a larger mesh has little header, and fills models of its own.
+constexpr uint64_t kSmallWedges = 256;
+/// Takes a few milliseconds to decode, so that workers can still divide a file among them.
+constexpr uint64_t kGatheredWedges = 16384;
+
+uint64_t wedgesOf(const PayloadPlan& payload) {
+  uint64_t count = 0;
+  for (const PiecePlan& piece : payload.pieces) count += piece.wedge_count;
+  return count;
+}
+
+bool isSmall(const PayloadPlan& payload) {
+  // Attributes next to a payload make it keep the order of its vertices.
+  const auto is_inside = [](const PiecePlan& piece) { return piece.ordinary.empty(); };
+  return wedgesOf(payload) <= kSmallWedges &&
+         std::all_of(payload.pieces.begin(), payload.pieces.end(), is_inside);
+}
+
+/// Returns a number that is the same for equal meshes.
+uint32_t hashOf(const PayloadPlan& payload) {
+  uint32_t crc = 0;
+  for (const PiecePlan& piece : payload.pieces) {
+    for (const PartPlan& part : piece.parts) {
+      crc = crc32({reinterpret_cast<const uint8_t*>(part.triangles.data()),
+                   part.triangles.size() * sizeof(uint32_t)},
+                  crc);
+    }
+    for (const AttributePlan& attribute : piece.attributes) {
+      for (uint64_t i = 0; i < attribute.source.count; ++i) {
+        crc = crc32(attribute.source.element(i), crc);
+      }
+    }
+  }
+  return crc;
+}
+
+/// Says of each payload whether it is small, and that of a mesh which equals no other.
+std::vector<bool> mayBeGathered(const std::vector<PayloadPlan>& payloads) {
+  std::vector<uint32_t> hashes;
+  std::map<uint32_t, size_t> count_of;
+  for (const PayloadPlan& payload : payloads) {
+    hashes.push_back(isSmall(payload) ? hashOf(payload) : 0);
+    ++count_of[hashes.back()];
+  }
+  std::vector<bool> may_be_gathered;
+  for (size_t i = 0; i < payloads.size(); ++i) {
+    may_be_gathered.push_back(isSmall(payloads[i]) && count_of[hashes[i]] == 1);
+  }
+  return may_be_gathered;
+}
+
+bool keepSameOrders(const PayloadPlan& a, const PayloadPlan& b) {
+  return a.keep_vertex_order == b.keep_vertex_order &&
+         a.keep_triangle_order == b.keep_triangle_order;
+}
+
+}  // namespace
+
+void gatherPayloads(std::vector<PayloadPlan>& payloads) {
+  const std::vector<bool> may_be_gathered = mayBeGathered(payloads);
+  std::vector<PayloadPlan> gathered;
+  size_t open = 0;                         // the payload that others join
+  uint64_t wedge_count = kGatheredWedges;  // its vertices; there is none yet
+  for (size_t i = 0; i < payloads.size(); ++i) {
+    PayloadPlan& payload = payloads[i];
+    const uint64_t more = wedgesOf(payload);
+    if (may_be_gathered[i] && wedge_count + more <= kGatheredWedges &&
+        keepSameOrders(payload, gathered[open])) {
+      std::move(payload.pieces.begin(), payload.pieces.end(),
+                std::back_inserter(gathered[open].pieces));
+      wedge_count += more;
+      continue;
+    }
+    if (may_be_gathered[i]) {
+      open = gathered.size();
+      wedge_count = more;
+    }
+    gathered.push_back(std::move(payload));
+  }
+  payloads = std::move(gathered);
 }
 
 Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& piece,

@@ -58,10 +58,14 @@ struct PiecePlan {
   std::vector<PartPlan> parts;
   /// Accessors that hold numbers of its vertices, and nothing else uses; see vertices.h.
   std::vector<uint32_t> vertex_numbers;
+
+  /// The mesh that uses it, or the first of them.
+  uint32_t mesh() const { return parts[0].users[0].mesh; }
 };
 
 /// What one mesh puts into one buffer view. A piece that several meshes use belongs to the first of
-/// them. A mesh has one payload, unless splitPayloads() divides it into several consecutive ones.
+/// them. A mesh has one payload, unless gatherPayloads() puts several meshes into that of the
+/// first, or splitPayloads() divides it into several consecutive ones.
 struct PayloadPlan {
   uint32_t mesh = 0;
   bool keep_vertex_order = false;
@@ -99,6 +103,11 @@ Result planPayloads(const Document& document, std::vector<PayloadPlan>& payloads
 /// Returns the extension object of a primitive that uses a part of a piece.
 Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& piece,
                    size_t part_number);
+
+/// Puts small meshes together into one payload, which spares headers and shares adaptive models.
+/// The lattices of meshes must have been chosen before. Equal meshes stay apart: brotli and gzip
+/// find equal payloads, while shared models would make them differ.
+void gatherPayloads(std::vector<PayloadPlan>& payloads);
 
 /// Divides payloads that hold more than every reader accepts by its default Limits, and gives
 /// pieces that may be cut into blocks payloads of their own. What the pieces of a mesh share, such

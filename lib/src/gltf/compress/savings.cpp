@@ -174,17 +174,19 @@ std::string_view textOf(std::span<const uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Finds the pieces among those asked for that have a position in common with another piece of the
-/// plan, and marks both. Such a piece cannot stay uncompressed alone, because the surfaces would
-/// come apart.
+/// Finds the pieces among those asked for that have a position in common with another piece of
+/// their mesh, and marks both. Such a piece cannot stay uncompressed alone, because the surfaces
+/// would come apart.
 std::vector<bool> touchingPieces(const PayloadPlan& plan, const std::vector<bool>& is_asked) {
   std::vector<bool> touches(plan.pieces.size(), false);
   if (std::find(is_asked.begin(), is_asked.end(), true) == is_asked.end()) return touches;
-  std::unordered_map<std::string_view, size_t> owner_of;  // position -> a piece that was asked for
+  // Mesh, position -> a piece that was asked for.
+  std::unordered_map<uint32_t, std::unordered_map<std::string_view, size_t>> owners;
   // Pieces that share a position are marked when the second of them is visited.
   for (const bool are_asked : {true, false}) {
     for (size_t k = 0; k < plan.pieces.size(); ++k) {
       if (is_asked[k] != are_asked) continue;
+      auto& owner_of = owners[plan.pieces[k].mesh()];
       const AccessorData& positions = positionsOf(plan.pieces[k]);
       for (uint64_t i = 0; i < positions.count; ++i) {
         const std::string_view position = textOf(positions.element(i));

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "json/numbers.h"
 #include "mcc/reader.h"
 
 namespace mcc::gltf {
@@ -253,7 +254,7 @@ Json boundNumbers(const std::vector<double>& values, ComponentType type) {
   Json numbers = Json::array();
   for (const double value : values) {
     if (type == ComponentType::kFloat32) {
-      numbers.push_back(value);
+      numbers.push_back(Json::number(spellingOf(static_cast<float>(value))));
     } else {
       numbers.push_back(static_cast<int64_t>(value));
     }

@@ -93,7 +93,8 @@ Bounds boundsOf(std::span<const uint8_t> tight, ComponentType type, uint32_t com
 /// The same for indices, of which there must be at least one.
 Bounds boundsOf(std::span<const uint32_t> indices);
 
-/// Returns finite bounds as `min` and `max` of an accessor hold them: integers have no fraction.
+/// Returns finite bounds as `min` and `max` of an accessor hold them: integers have no fraction,
+/// and floats the fewest digits that read back as the same float.
 Json boundNumbers(const std::vector<double>& values, ComponentType type);
 
 /// Writes finite bounds into an accessor: both when `is_required`, else only those it already has.
