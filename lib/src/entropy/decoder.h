@@ -255,7 +255,7 @@ class RawBitsDecoder {
     }
     window >>= next_bit_ & 7;
     next_bit_ += bits;
-    return static_cast<uint32_t>(window & ((uint64_t{1} << bits) - 1));
+    return static_cast<uint32_t>(window) & maskBelow(bits);
   }
 
   /// Reads base + `bits` raw bits (at most 56 with the sign); a sign bit follows if `sign` is set
@@ -269,7 +269,7 @@ class RawBitsDecoder {
       return value;
     }
     const uint64_t window = loadU64(bytes_.data() + byte) >> (next_bit_ & 7);
-    const uint32_t value = base + static_cast<uint32_t>(window & ((uint64_t{1} << bits) - 1));
+    const uint32_t value = base + (static_cast<uint32_t>(window) & maskBelow(bits));
     const uint32_t signs = sign && value != 0 ? 1 : 0;
     negative = static_cast<uint32_t>(window >> bits) & signs;
     next_bit_ += bits + signs;

@@ -88,14 +88,15 @@ inline void addExactFaces(NormalWeight weight, const WedgeMesh& wedges, const fl
   }
 }
 
+using ExactNormalMemory = ValueMemory<3, true>;  ///< mirrored parts are alike but for signs
+
 template <class Io>
 class ExactNormalCoder {
  public:
   /// Codes three ordered floats per wedge. `positions` has 3 floats per wedge. `memory` has been
-  /// started with the values and ignores signs, because mirrored parts are alike; it is null if the
-  /// predictor remembers nothing.
+  /// started with the values; it is null if the predictor remembers nothing.
   ExactNormalCoder(const AttributeJob<Io>& job, VectorModels& models, const float* positions,
-                   const VectorWork& work, ValueMemory* memory)
+                   const VectorWork& work, ExactNormalMemory* memory)
       : job_(job),
         models_(models),
         memory_(memory),
@@ -121,13 +122,13 @@ class ExactNormalCoder {
   void codeGroup(uint32_t w);
 
   bool codeKnown(uint32_t w, uint32_t entry, const double* predicted);
-  static uint64_t predictionKey(const ValueMemory& memory, const double* predicted);
+  static uint64_t predictionKey(const double* predicted);
 
   static constexpr double kBlendPart = 0.5;  ///< of what both neighbours' predictions missed
 
   const AttributeJob<Io> job_;
   VectorModels& models_;
-  ValueMemory* const memory_;
+  ExactNormalMemory* const memory_;
   VectorCoder<Io> coder_;
   const NormalWeight weight_;
   const bool blends_;
@@ -181,17 +182,17 @@ void ExactNormalCoder<Io>::codeGroup(uint32_t w) {
     errors_[m] = error;
   }
   job_.lengths[w] = 0;
-  if (memory_ != nullptr) memory_->learn(predictionKey(*memory_, predicted), w);
+  if (memory_ != nullptr) memory_->learn(predictionKey(predicted), w);
 }
 
 /// The key of a prediction: its components without signs, in steps of 2^-12.
 template <class Io>
-uint64_t ExactNormalCoder<Io>::predictionKey(const ValueMemory& memory, const double* predicted) {
+uint64_t ExactNormalCoder<Io>::predictionKey(const double* predicted) {
   uint32_t rounded[3];
   for (int s = 0; s < 3; ++s) {
     rounded[s] = static_cast<uint32_t>(std::fabs(predicted[s]) * 4096 + 0.5);
   }
-  return memory.predictionKey(rounded);
+  return ExactNormalMemory::predictionKey(rounded);
 }
 
 /// Whether the vector is, but for signs, one that was predicted like this before, or stood beside
@@ -211,8 +212,7 @@ bool ExactNormalCoder<Io>::codeKnown(uint32_t w, uint32_t entry, const double* p
     return std::equal(candidate, candidate + 3, value);
   };
   memory_->begin();
-  uint32_t k =
-      memory_->ask(job_.io, models_.memory, predictionKey(*memory_, predicted), kNone, isValue);
+  uint32_t k = memory_->ask(job_.io, models_.memory, predictionKey(predicted), kNone, isValue);
   if (k == kNone && entry != kNone) {
     const FaceView& faces = job_.wedges.faces;
     const uint32_t across = nextHalfEdge(entry);

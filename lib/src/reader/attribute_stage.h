@@ -237,12 +237,11 @@ class AttributeStage {
     if (!doubles_.resize(3 * size_t{wedges.count}) || !errors_.resize(wedges.count))
       return noMemory();
     const bool remembers = (job.info.predictor & exact_normal_method::kRemembers) != 0;
-    if (remembers && !memory_.start(wedges.face_count, job.values, 3, true)) return noMemory();
-    MCC_TRY(run<ExactNormalCoder>(job, models_.exact_normals, exact_positions.data(),
-                                  VectorWork{doubles_.data(), errors_.data()},
-                                  remembers ? &memory_ : nullptr));
-    memory_.clear();
-    return {};
+    ExactNormalMemory memory(memory_);
+    if (remembers && !memory.start(wedges.face_count, job.values)) return noMemory();
+    return run<ExactNormalCoder>(job, models_.exact_normals, exact_positions.data(),
+                                 VectorWork{doubles_.data(), errors_.data()},
+                                 remembers ? &memory : nullptr);
   }
 
   Status codeExactTangents(const Job& job) {
@@ -258,11 +257,10 @@ class AttributeStage {
 
   Status codeTexcoords(const Job& job) {
     const bool remembers = (job.info.predictor & texcoord_method::kRemembers) != 0;
-    if (remembers && !memory_.start(wedges.face_count, job.values, 2, false)) return noMemory();
-    MCC_TRY(run<TexcoordCoder>(job, models_.texcoords[job.info.format.set_index != 0 ? 1 : 0],
-                               remembers ? &memory_ : nullptr));
-    memory_.clear();
-    return {};
+    TexcoordMemory memory(memory_);
+    if (remembers && !memory.start(wedges.face_count, job.values)) return noMemory();
+    return run<TexcoordCoder>(job, models_.texcoords[job.info.format.set_index != 0 ? 1 : 0],
+                              remembers ? &memory : nullptr);
   }
 
   /// What the chart says about tangents, into floats_: 4 per wedge.
@@ -329,7 +327,7 @@ class AttributeStage {
   Array<float> chart_coordinates_;  ///< 2 per wedge, only with tangents
   Array<int32_t> exact_normals_;    ///< 3 ordered floats per wedge, only with tangents
   Array<float> unit_normals_;       ///< 3 per wedge, see listNormals()
-  ValueMemory memory_;
+  Array<MemoryEntry> memory_;
   Array<uint8_t> lengths_;
 };
 

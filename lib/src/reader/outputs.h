@@ -87,6 +87,20 @@ void storeLattice(const AttributeInfo& info, uint32_t wedge_count, const Attribu
   }
 }
 
+/// Stores integers modulo the width of Component, whose sign does not matter.
+template <class Component, class Load>
+void storeIntegers(uint32_t components, uint32_t wedge_count, const AttributeTarget& target,
+                   Load load) {
+  uint8_t* to = static_cast<uint8_t*>(target.data);
+  for (uint32_t w = 0; w < wedge_count; ++w, to += target.stride_bytes) {
+    const int32_t* q = load(w);
+    for (uint32_t c = 0; c < components; ++c) {
+      const Component value = static_cast<Component>(q[c]);
+      std::memcpy(to + sizeof value * c, &value, sizeof value);
+    }
+  }
+}
+
 /// Copies coded integers to the caller's elements; `load(i)` points to the integers of
 /// element i. [A.10.18]
 template <class Load>
@@ -118,6 +132,10 @@ void storeElements(const AttributeInfo& info, uint32_t wedge_count, const Attrib
       return;
     default: {
       const uint32_t bytes = componentBytes(format.component_type);
+      if (!kCompact && bytes == 1)
+        return storeIntegers<uint8_t>(components, wedge_count, target, load);
+      if (!kCompact && bytes == 2)
+        return storeIntegers<uint16_t>(components, wedge_count, target, load);
       for (uint32_t w = 0; w < wedge_count; ++w, to += stride) {
         const int32_t* q = load(w);
         for (uint32_t c = 0; c < components; ++c) {

@@ -38,6 +38,7 @@ class EqualityCoder {
     uint32_t vertex_first = 0;
     uint32_t last_like_first = 0;  // the last of the vertex's wedges that equals its first
     uint32_t answer_before = 0;
+    typename Io::CodesBurst codes(io_);
     for (uint32_t w = 0; w < wedges_.count; ++w) {
       groups.first[w] = w;
       if (w >= wedges_.coded_count || !wedges_.continuesVertex(w)) {
@@ -48,16 +49,17 @@ class EqualityCoder {
       const uint32_t other_end = otherEnd(groups, w);
       const uint32_t crease = creaseClass(wedges_.faces, wedges_.startOf(w));
       const bool equal =
-          io_.bit(models_.previous[other_end][answer_before][crease], isEqual(w - 1, w));
+          codes.bit(models_.previous[other_end][answer_before][crease], isEqual(w - 1, w));
       answer_before = equal ? 2 : 1;
       if (equal) {
         join(groups, w - 1, w);
       } else if (groups.first[w - 1] != vertex_first &&
-                 io_.bit(models_.first[other_end], isEqual(vertex_first, w))) {
+                 codes.bit(models_.first[other_end], isEqual(vertex_first, w))) {
         join(groups, last_like_first, w);
       }
       if (groups.first[w] == vertex_first) last_like_first = w;
     }
+    codes.giveBack(io_);
     return {};
   }
 

@@ -53,7 +53,8 @@ class SeamCoder {
         groups_(groups),
         corner_source_(corner_source),
         wedge_of_source_(mesh.allocator()),
-        fan_(mesh.allocator()) {}
+        fan_(mesh.allocator()),
+        run_begins_(mesh.allocator()) {}
 
   /// Codes the seams. `group_order` has a half-edge per group in coding order. More than
   /// `wedge_limit` wedges are an error.
@@ -74,6 +75,10 @@ class SeamCoder {
   Status codeUmbrella(uint32_t group, uint32_t start);
   bool collectFan(uint32_t start);
   bool walkFan(uint32_t start);
+  bool makeRoom() {
+    const size_t size = 2 * fan_.size();
+    return fan_.resize(size) && run_begins_.resize(size + 1);
+  }
   bool codeHasSeam();
   void codeSeamEnds();
   Status codeRuns(uint32_t group);
@@ -96,13 +101,10 @@ class SeamCoder {
     wedge_of_source_[source] = wedge;
     return true;
   }
-  /// Returns whether the edge before fan face i (for i == 0, the edge after the last face) has a
-  /// seam end here.
-  bool seamBefore(uint32_t i) const {
-    return (seamStates(faces_, fan_[i]) & seam_state::kEnd) != 0;
+  /// Makes the corners of the fan faces `begin` .. `end`-1 corners of `wedge`.
+  void setCorners(uint32_t begin, uint32_t end, uint32_t wedge) {
+    for (uint32_t i = begin; i < end; ++i) faces_.words[fan_[i]] = wedge | kDone;
   }
-  /// Wraps an index of the fan; i must be below twice its length.
-  uint32_t around(uint32_t i) const { return i < fan_count_ ? i : i - fan_count_; }
 
   Io& io_;
   SeamModels& models_;
@@ -120,6 +122,9 @@ class SeamCoder {
   // The umbrella at work.
   static constexpr uint32_t kUsualFan = 64;
   Array<uint32_t> fan_;  ///< half-edges leaving the vertex, counterclockwise, and room for more
+  Array<uint32_t> run_begins_;  ///< fan faces; room for one more than the fan; see codeSeamEnds()
+  uint32_t run_end_ = 0;        ///< of run_begins_
+  uint32_t first_run_ = 0;      ///< of run_begins_
   uint32_t fan_count_ = 0;
   bool closed_ = false;
   uint32_t known_ends_ = 0;  ///< number of seam ends at the other ends of the fan's edges
@@ -131,7 +136,7 @@ Status SeamCoder<Io>::run(uint32_t wedge_limit, const Array<uint32_t>& group_ord
                           const SeamWedges& wedges) {
   wedge_limit_ = wedge_limit;
   if (!wedges.start.resize(wedge_limit_) || !wedges.group.resize(wedge_limit_) ||
-      !fan_.resize(kUsualFan)) {
+      !fan_.resize(kUsualFan) || !run_begins_.resize(kUsualFan + 1)) {
     return fail(Error::kOutOfMemory, "no memory for wedges");
   }
   starts_ = wedges.start.data();
@@ -191,7 +196,7 @@ bool SeamCoder<Io>::walkFan(uint32_t start) {
   uint32_t states = 0;
   uint32_t h = start;
   do {
-    if (count == fan_.size() && !fan_.resize(2 * size_t{count})) [[unlikely]]
+    if (count == fan_.size() && !makeRoom()) [[unlikely]]
       return false;
     fan_[count++] = h;
     const uint32_t edge = prevHalfEdge(h);
@@ -219,31 +224,41 @@ bool SeamCoder<Io>::codeHasSeam() {
                  any);
 }
 
-/// Codes bits for the edges 1 .. n-1 between the fan faces i-1 and i, then for the
-/// closing edge 0. [A.7.2]
+/// Codes bits for the edges 1 .. n-1 between the fan faces i-1 and i, then for the closing edge 0.
+/// Lists the runs that begin behind them: run_begins_[0] is fan face 0, which begins a run of an
+/// open fan, or if the closing edge has a seam end; else the last run reaches over it. [A.7.2]
 template <class Io>
 void SeamCoder<Io>::codeSeamEnds() {
   const uint32_t n = fan_count_;
   const uint32_t edges = closed_ ? n : n - 1;
   const uint32_t boundary = closed_ ? 0 : 1;
   const uint32_t needed = closed_ ? 2 : 1;
+  const uint32_t* const fan = fan_.data();
+  uint32_t* const begins = run_begins_.data();
+  begins[0] = 0;
+  first_run_ = boundary ^ 1;
   uint32_t ends = 0;
   for (uint32_t k = 1; k <= edges; ++k) {
     const uint32_t i = k == n ? 0 : k;
     bool seam = ends + (edges - k + 1) == needed;  // implied when every remaining edge is needed
     if (!seam) {
-      const uint32_t t = faces_.twin(fan_[i]);
+      const uint32_t t = faces_.twin(fan[i]);
       const uint32_t states = seamStates(faces_, t);
       const uint32_t seam_there = (states & seam_state::kEnd) != 0 ? 2 : 1;
       const uint32_t other = (faces_.vertex(t) & kDone) == 0 ? 0 : seam_there;
       bool truth = false;
-      if constexpr (Io::kEncoding) truth = source(fan_[i]) != source(fan_[i == 0 ? n - 1 : i - 1]);
+      if constexpr (Io::kEncoding) truth = source(fan[i]) != source(fan[i == 0 ? n - 1 : i - 1]);
       seam = io_.bit(models_.edge[other][std::min(ends, 2u)][boundary][creaseOf(states)], truth);
     }
     if (!seam) continue;
     ++ends;
-    faces_.words[fan_[i] | kSeamWord] |= seam_state::kEnd << (8 * (fan_[i] & 3));
+    begins[ends] = i;
+    faces_.words[fan[i] | kSeamWord] |= seam_state::kEnd << (8 * (fan[i] & 3));
   }
+  run_end_ = ends + 1;
+  if (begins[ends] != 0) return;
+  first_run_ = 0;
+  --run_end_;
 }
 
 template <class Io>
@@ -259,33 +274,25 @@ MCC_INLINE Status SeamCoder<Io>::codeUmbrella(uint32_t group, uint32_t start) {
   } else {
     MCC_TRY(codeWedge({fan_[0], true, {kNone, kNone}}, group, wedge));
   }
-  for (uint32_t i = 0; i < fan_count_; ++i) faces_.words[fan_[i]] = wedge | kDone;
+  setCorners(0, fan_count_, wedge);
   return {};
 }
 
-/// Codes the runs. A run starts after a seam end; the first may reach back over the closing edge.
+/// Codes the runs. The last one may reach over the closing edge.
 template <class Io>
 Status SeamCoder<Io>::codeRuns(uint32_t group) {
-  const uint32_t n = fan_count_;
-  uint32_t first = 0;
-  while (closed_ && first < n && !seamBefore(first)) ++first;
-  if (first == n) first = 0;
   uint32_t first_wedge = kNone;
   uint32_t previous = kNone;
-  for (uint32_t i = 0; i < n;) {
-    uint32_t length = 1;
-    while (i + length < n && !seamBefore(around(first + i + length))) ++length;
-    const bool last = i + length == n;
+  for (uint32_t r = first_run_; r < run_end_; ++r) {
+    const uint32_t begin = run_begins_[r];
+    const bool is_last = r + 1 == run_end_;
     uint32_t wedge = kNone;
-    const uint32_t next = last && closed_ ? first_wedge : kNone;
-    const Run run{fan_[around(first + i)], i == 0, {previous, next}};
-    MCC_TRY(codeWedge(run, group, wedge));
-    for (uint32_t k = 0; k < length; ++k) {
-      faces_.words[fan_[around(first + i + k)]] = wedge | kDone;
-    }
+    const uint32_t next = is_last && closed_ ? first_wedge : kNone;
+    MCC_TRY(codeWedge({fan_[begin], r == first_run_, {previous, next}}, group, wedge));
+    setCorners(begin, is_last ? fan_count_ : run_begins_[r + 1], wedge);
+    if (is_last && first_run_ != 0) setCorners(0, run_begins_[first_run_], wedge);
     if (first_wedge == kNone) first_wedge = wedge;
     previous = wedge;
-    i += length;
   }
   return {};
 }

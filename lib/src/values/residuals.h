@@ -49,7 +49,7 @@ MCC_INLINE uint32_t codeBelowLength(Io& io, uint32_t length, int32_t truth, uint
   }
   bits = io.raw(length, bits);
   negative = ~uint32_t{(bits & leading) != 0} + 1;
-  return leading | (bits & (leading - 1));
+  return leading | bits;
 }
 
 /// What follows a token of layout 0.

@@ -40,6 +40,8 @@ struct TexcoordModels {
   }
 };
 
+using TexcoordMemory = ValueMemory<2, false>;
+
 /// Difference of two coordinates as a float; the subtraction wraps.
 inline float coordinateDifference(int32_t a, int32_t b) {
   return static_cast<float>(
@@ -51,7 +53,7 @@ template <class Io>
 class TexcoordCoder {
  public:
   /// `memory` has been started with the values; it is null if the predictor remembers nothing.
-  TexcoordCoder(const AttributeJob<Io>& job, TexcoordModels& models, ValueMemory* memory)
+  TexcoordCoder(const AttributeJob<Io>& job, TexcoordModels& models, TexcoordMemory* memory)
       : job_(job),
         models_(models),
         is_hinge_((job.info.predictor & texcoord_method::kHinge) != 0),
@@ -99,7 +101,7 @@ class TexcoordCoder {
   const AttributeJob<Io> job_;
   TexcoordModels& models_;
   const bool is_hinge_;
-  ValueMemory* const memory_;
+  TexcoordMemory* const memory_;
   float side_ = 1;  ///< of the chart a face's tip lies on: 1 left of its edge, as in the last face
   int32_t last_[2] = {};
 };

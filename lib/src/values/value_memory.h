@@ -21,29 +21,32 @@ struct MemoryModels {
   BitModel known[4][4];  ///< [candidates asked for before][last two outcomes]
 };
 
-/// Two different values for each key, which is made of the values at an edge or of a
-/// prediction. [A.10.10]
+/// Two different values for each key, as the wedges that have them.
+struct MemoryEntry {
+  uint32_t check;
+  uint32_t wedge[2];  ///< the latest first; kNone: none
+};
+
+/// Values for each key, which is made of the values at an edge or of a prediction. With
+/// kIgnoresSigns, floats that differ in sign are equal. [A.10.10]
+template <uint32_t kComponents, bool kIgnoresSigns>
 class ValueMemory {
  public:
-  explicit ValueMemory(const Allocator& allocator) : entries_(allocator) {}
+  /// `entries` is work space.
+  explicit ValueMemory(Array<MemoryEntry>& entries) : entries_(entries) {}
 
-  /// Starts with no values. `values`: `components` per wedge; with `ignores_signs`, floats that
-  /// differ in sign are equal.
-  [[nodiscard]] bool start(uint32_t face_count, const int32_t* values, uint32_t components,
-                           bool ignores_signs) {
+  /// Starts with no values. `values`: kComponents per wedge.
+  [[nodiscard]] bool start(uint32_t face_count, const int32_t* values) {
     values_ = values;
-    components_ = components;
-    ignores_signs_ = ignores_signs;
     history_ = 0;
     bits_ = std::min(static_cast<uint32_t>(std::bit_width(face_count)) + 1, kMostBits);
-    return entries_.assign(size_t{1} << bits_, Entry{0, {kNone, kNone}});
+    return entries_.assign(size_t{1} << bits_, MemoryEntry{0, {kNone, kNone}});
   }
-  void clear() { entries_.clear(); }
 
   /// The key of the values at the ends of an edge, the same in both directions.
   uint64_t edgeKey(uint32_t a, uint32_t b) const { return keyOf(hashOf(a) + hashOf(b)); }
   /// The key of a prediction that integers stand for.
-  uint64_t predictionKey(const uint32_t* integers) const { return keyOf(hashOf(integers)); }
+  static uint64_t predictionKey(const uint32_t* integers) { return keyOf(hashOf(integers)); }
 
   /// To be called before the first ask() about a wedge.
   void begin() { asked_count_ = 0; }
@@ -52,7 +55,7 @@ class ValueMemory {
   /// answer for the value of wedge k. Returns k, or kNone.
   template <class Io, class IsValue>
   uint32_t ask(Io& io, MemoryModels& models, uint64_t key, uint32_t except, IsValue isValue) {
-    const Entry e = entries_[key >> (64 - bits_)];
+    const MemoryEntry e = entries_[key >> (64 - bits_)];
     if (e.check != static_cast<uint32_t>(key)) return kNone;
     for (const uint32_t k : e.wedge) {
       if (k == kNone || (except != kNone && isEqual(k, except)) || wasAsked(k)) continue;
@@ -66,7 +69,7 @@ class ValueMemory {
   }
 
   void learn(uint64_t key, uint32_t wedge) {
-    Entry& e = entries_[key >> (64 - bits_)];
+    MemoryEntry& e = entries_[key >> (64 - bits_)];
     const uint32_t check = static_cast<uint32_t>(key);
     const bool is_known = e.check == check;
     if (!is_known || e.wedge[0] == kNone || !isEqual(wedge, e.wedge[0])) {
@@ -79,7 +82,8 @@ class ValueMemory {
   /// Learns the third corners of the faces that the wedges in the group of w complete.
   template <class Io>
   void learnGroup(const AttributeJob<Io>& job, uint32_t w) {
-    for (uint32_t m = w; m != kNone; m = job.groups.nextOf(m)) learnFaces(job, m);
+    const uint64_t of_group = hashOf(w);
+    for (uint32_t m = w; m != kNone; m = job.groups.nextOf(m)) learnFaces(job, m, of_group);
   }
 
  private:
@@ -87,13 +91,12 @@ class ValueMemory {
   static constexpr uint32_t kFaceLimit = 16;
 
   template <class Io>
-  void learnFaces(const AttributeJob<Io>& job, uint32_t w) {
+  void learnFaces(const AttributeJob<Io>& job, uint32_t w, uint64_t of_w) {
     uint32_t faces = 0;
     for (uint32_t h = job.wedges.firstCompleted(w); h != kNone && faces < kFaceLimit;
          h = job.wedges.nextCompleted(h), ++faces) {
       const auto [n, p] = job.othersOf(h);
       if (!job.isCoded(n) || !job.isCoded(p)) continue;
-      const uint64_t of_w = hashOf(w);
       const uint64_t of_n = hashOf(n);
       const uint64_t of_p = hashOf(p);
       learn(keyOf(of_n + of_p), w);
@@ -102,20 +105,14 @@ class ValueMemory {
     }
   }
 
-  struct Entry {
-    uint32_t check;
-    uint32_t wedge[2];  ///< the latest first; kNone: none
-  };
-
-  const int32_t* at(uint32_t w) const { return values_ + size_t{w} * components_; }
-  uint32_t seen(int32_t value) const {
-    return ignores_signs_ ? bitsFromOrdered(value) & 0x7fffffffu : static_cast<uint32_t>(value);
+  uint32_t seen(uint32_t w, uint32_t c) const {
+    const int32_t value = values_[size_t{w} * kComponents + c];
+    return kIgnoresSigns ? bitsFromOrdered(value) & 0x7fffffffu : static_cast<uint32_t>(value);
   }
   bool isEqual(uint32_t a, uint32_t b) const {
-    for (uint32_t c = 0; c < components_; ++c) {
-      if (seen(at(a)[c]) != seen(at(b)[c])) return false;
-    }
-    return true;
+    uint32_t difference = 0;
+    for (uint32_t c = 0; c < kComponents; ++c) difference |= seen(a, c) ^ seen(b, c);
+    return difference == 0;
   }
   bool wasAsked(uint32_t k) const {
     return std::any_of(asked_, asked_ + asked_count_,
@@ -127,13 +124,13 @@ class ValueMemory {
   }
   static constexpr uint64_t kEmptyHash = 0x243f6a8885a308d3u;
   uint64_t hashOf(uint32_t w) const {
-    uint64_t h = kEmptyHash;
-    for (uint32_t c = 0; c < components_; ++c) h = addToHash(h, seen(at(w)[c]));
-    return h;
+    uint32_t integers[kComponents];
+    for (uint32_t c = 0; c < kComponents; ++c) integers[c] = seen(w, c);
+    return hashOf(integers);
   }
-  uint64_t hashOf(const uint32_t* integers) const {
+  static uint64_t hashOf(const uint32_t* integers) {
     uint64_t h = kEmptyHash;
-    for (uint32_t c = 0; c < components_; ++c) h = addToHash(h, integers[c]);
+    for (uint32_t c = 0; c < kComponents; ++c) h = addToHash(h, integers[c]);
     return h;
   }
   static uint64_t keyOf(uint64_t hash) {
@@ -141,10 +138,8 @@ class ValueMemory {
     return h ^ (h >> 32);
   }
 
-  Array<Entry> entries_;
+  Array<MemoryEntry>& entries_;
   const int32_t* values_ = nullptr;
-  uint32_t components_ = 0;
-  bool ignores_signs_ = false;
   uint32_t bits_ = 0;
   uint32_t history_ = 0;
   uint32_t asked_[4];

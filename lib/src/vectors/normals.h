@@ -111,12 +111,11 @@ class OctahedralFrame {
     // Quarter turns that bring the point to x < 0, y <= 0: signs are flipped, then both swapped.
     const int32_t x = inside[0];
     const int32_t y = inside[1];
-    const int32_t one = (y > 0) & (x <= 0);
-    const int32_t two = (x > 0) & (y >= 0);
-    const int32_t three = (y < 0) & (x >= 0);
-    flip_[0] = -(two | three);
-    flip_[1] = -(one | two);
-    swap_ = -(one | three);
+    // One turn if y > 0 and x <= 0, two if x > 0 and y >= 0, three if y < 0 and x >= 0. A shift by
+    // 31 makes a mask of a sign.
+    flip_[0] = ((y >> 31) - x) >> 31;
+    flip_[1] = ((-x >> 31) - y) >> 31;
+    swap_ = flip_[0] ^ flip_[1];
     p_[0] = -std::abs(x);
     p_[1] = -std::abs(y);
     swapIfOdd(p_);
@@ -133,8 +132,8 @@ class OctahedralFrame {
   static void turnOver(int32_t* p, int32_t centre) {
     const int32_t x = p[0];
     const int32_t y = p[1];
-    const int32_t x_negative = -((x < 0) | ((x == 0) & (y < 0)));
-    const int32_t y_negative = -((y < 0) | ((y == 0) & (x < 0)));
+    const int32_t x_negative = (x + (y >> 31)) >> 31;  // or x is 0, and y is negative
+    const int32_t y_negative = (y + (x >> 31)) >> 31;
     p[0] = ((centre - std::abs(y)) ^ x_negative) - x_negative;
     p[1] = ((centre - std::abs(x)) ^ y_negative) - y_negative;
   }
@@ -180,8 +179,8 @@ class OctahedralFrame {
   void turnOverIf(bool condition, int32_t* p) const {
     int32_t q[2] = {p[0], p[1]};
     turnOver(q, centre_);
-    p[0] = condition ? q[0] : p[0];
-    p[1] = condition ? q[1] : p[1];
+    const int32_t change = -int32_t{condition};  // by bits: compilers would branch
+    for (int k = 0; k < 2; ++k) p[k] ^= (p[k] ^ q[k]) & change;
   }
   int32_t size() const { return 2 * centre_ + 1; }
 
