@@ -98,9 +98,7 @@ export function finishAttributes(attributes, minorVersion) {
 		&& (a.coding === EXACT_FLOAT || a.coding === GRID));
 	findPartners(attributes);
 	for (const a of attributes) {
-		setMethod(a);
-		const isNew = a.method.startsWith('tangent') && (a.predictor & 3) !== 0;
-		valid(!isNew || minorVersion >= 1, 'a predictor is new in minor version 1');
+		setMethod(a, minorVersion);
 		if (a.coding === ALIAS) checkAlias(a, attributes);
 		if (a.coding === TANGENT_ANGLE) valid(octahedralNormal !== undefined, 'a tangent angle has no normal');
 	}
@@ -123,17 +121,20 @@ function findPartners(attributes) {
 	}
 }
 
-// [A.2.4] The methods by their numbers, with the bits that their predictor byte may have.
+// [A.10.20] The bit of normals and texture coordinates.
+export const MATES = 64;
+
+// [A.2.4] The methods by their numbers, with the bits that their predictor byte may have, and those of minor version 1.
 const METHODS = [
 	{ name: 'position', bits: 255, fits: (a) => a.number === 0 },
-	{ name: 'tangent point', bits: 131, fits: (a) => a.coding === OCTAHEDRAL && a.semantic === TANGENT },
-	{ name: 'normal', bits: 135, fits: (a) => a.coding === OCTAHEDRAL },
-	{ name: 'tangent', bits: 129, fits: (a) => a.coding === TANGENT_ANGLE },
+	{ name: 'tangent point', bits: 128, added: 3, fits: (a) => a.coding === OCTAHEDRAL && a.semantic === TANGENT },
+	{ name: 'normal', bits: 135, added: MATES, fits: (a) => a.coding === OCTAHEDRAL },
+	{ name: 'tangent', bits: 128, added: 1, fits: (a) => a.coding === TANGENT_ANGLE },
 	{ name: 'alias', bits: 0, fits: (a) => a.coding === ALIAS },
 	{ name: 'skin', bits: 128, fits: (a) => a.semantic === JOINTS && a.partner !== undefined },
 	{ name: 'skin weights', bits: 3, fits: (a) => a.semantic === WEIGHTS && a.partner !== undefined },
 	{ name: 'values', bits: 129, fits: (a) => a.target !== 0 },
-	{ name: 'texture coordinate', bits: 131, fits: (a) => a.semantic === TEXCOORD && a.components === 2 },
+	{ name: 'texture coordinate', bits: 131, added: MATES, fits: (a) => a.semantic === TEXCOORD && a.components === 2 },
 	{ name: 'exact normal', bits: 143, fits: (a) => isExact(a, NORMAL, 3) },
 	{ name: 'exact tangent', bits: 129, fits: (a) => isExact(a, TANGENT, 4) },
 	{ name: 'values', bits: 129, fits: () => true },
@@ -143,12 +144,14 @@ const HAVE_NUMBER = ['normal', 'skin weights', 'exact normal'];
 const isExact = (a, semantic, components) =>
 	a.coding === EXACT_FLOAT && a.semantic === semantic && a.components === components;
 
-function setMethod(a) {
-	const { name, bits } = METHODS.find(({ fits }) => fits(a));
+function setMethod(a, minorVersion) {
+	const { name, bits, added = 0 } = METHODS.find(({ fits }) => fits(a));
 	a.method = name;
 	if (name === 'position') return checkPositionPredictor(a);
 	const numberFits = !HAVE_NUMBER.includes(name) || (a.predictor & 3) !== 3;
-	valid((a.predictor & ~bits) === 0 && numberFits, 'an attribute has a predictor that its method does not have');
+	const bitsFit = (a.predictor & ~(bits | added)) === 0;
+	valid(bitsFit && numberFits, 'an attribute has a predictor that its method does not have');
+	valid((a.predictor & added) === 0 || minorVersion >= 1, 'a predictor is new in minor version 1');
 }
 
 // [A.6.2] The bits of the predictor byte of the position.

@@ -92,6 +92,17 @@ export function bit(coder, M) {
 	return outcome;
 }
 
+// [A.10.10, A.10.19, A.10.20] The models of a decision by its last two outcomes, the outcomes before the first decision,
+// and the decision.
+const RECENT = 4;
+export const recentModels = () => arrayOf(RECENT);
+export const noOutcomes = () => ({ hits: 0 });
+export function recentBit(coder, models, recent) {
+	const hit = bit(coder, models[recent.hits]);
+	recent.hits = (2 * recent.hits + hit) % RECENT;
+	return hit;
+}
+
 // [A.3.7]
 const peek = (decoder, n) => Math.min(Number(decoder.code / (decoder.range >> BigInt(n))), 2 ** n - 1);
 function consume(decoder, start, frequency, n) {

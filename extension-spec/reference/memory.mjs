@@ -3,11 +3,11 @@
 // The memory of values [A.10.10]. Hashes are BigInts, because their products have 128 bits before they wrap in u64.
 
 import { width } from './bytes.mjs';
-import { arrayOf, bit } from './entropy.mjs';
+import { arrayOf, noOutcomes, recentBit, recentModels } from './entropy.mjs';
 import { next, prev } from './surface.mjs';
 
 const LOOKED_AT = 16;
-export const memoryModels = () => ({ KNOWN: arrayOf(4, () => arrayOf(4)) });
+export const memoryModels = () => ({ KNOWN: arrayOf(4, recentModels) });
 const u64 = (x) => BigInt.asUintN(64, x);
 function hash(numbers) {
 	let h = 0x243f6a8885a308d3n;
@@ -28,7 +28,7 @@ export const edgeKey = (memory, a, b) => key(hash(memory.numbersOf(a)) + hash(me
 // [A.10.10] numbersOf(w) are the numbers x, u32, by which the values of coded wedges count as equal.
 export function createMemory(coding, models, faceCount, numbersOf) {
 	const b = Math.min(width(faceCount) + 1, 22);
-	return { coding, models, numbersOf, shift: BigInt(64 - b), entries: new Array(2 ** b), hits: 0, asked: [] };
+	return { coding, models, numbersOf, shift: BigInt(64 - b), entries: new Array(2 ** b), recent: noOutcomes(), asked: [] };
 }
 const checkOf = (k) => Number(BigInt.asUintN(32, k));
 
@@ -60,8 +60,7 @@ export function ask(memory, k, excepted) {
 	for (const w of wedgesAt(memory, k)) {
 		if (excepted !== undefined && equal(memory, w, excepted)) continue;
 		if (asked.some((before) => equal(memory, w, before))) continue;
-		const hit = bit(coding.coder, models.KNOWN[asked.length][memory.hits]);
-		memory.hits = (2 * memory.hits + hit) & 3;
+		const hit = recentBit(coding.coder, models.KNOWN[asked.length], memory.recent);
 		asked.push(w);
 		if (hit) return w;
 	}

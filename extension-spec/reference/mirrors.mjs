@@ -47,6 +47,10 @@ const isNear = (a, b) => a.every((x, s) => Math.abs((x - b[s]) | 0) <= 1);
 const hasMate = ({ mate }, v) => mate.some((of) => of[v] !== NONE);
 const distanceOf = (a, b) => a.reduce((sum, x, s) => sum + Math.abs((x - b[s]) | 0), 0);
 
+// [A.10.20] The mates of v but v itself, each with the axis of its mirror, in the order of the mirrors.
+export const otherMates = ({ mirrors, mate }, v) =>
+	mirrors.map(({ axis }, m) => ({ axis, u: mate[m][v] })).filter(({ u }) => u !== NONE && u !== v);
+
 // The neighbours of a fan that are looked at.
 export const lookedAt = ({ n, count: N }) => [n[N >> 1], n[0], n[N - 1]];
 

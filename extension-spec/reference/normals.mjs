@@ -3,7 +3,10 @@
 // Sums of face normals [A.10.7], normals [A.10.8]. All floats are f32.
 
 import { add32, cross32, dot32, f, max, min, scale32, subtract32 } from './floats.mjs';
-import { centreOf, frameAround, frameOfVector, gridPoint, octahedron, readPoint, size, sumOf } from './octahedral.mjs';
+import { mateModels, valuesOfMates } from './mates.mjs';
+import {
+	centreOf, frameAround, frameOfVector, gridPoint, mirroredValue, octahedron, pointOfValue, readPoint, size, sumOf,
+} from './octahedral.mjs';
 import { NO_NEIGHBOURS, contextOf, contextRows } from './residuals.mjs';
 import { NONE, forEachFace } from './surface.mjs';
 import { codeBundles } from './wedges.mjs';
@@ -12,7 +15,7 @@ import { codeBundles } from './wedges.mjs';
 export const AREA = 0, ANGLE = 1, SINE = 2;
 export const BLEND = 4;
 const PI = f(3.14159274);
-export const normalModels = () => ({ ROW: [contextRows(), contextRows()] });
+export const normalModels = () => ({ ROW: [contextRows(), contextRows()], ...mateModels() });
 
 // [A.10.7] Of a face with these positions at its corners.
 export function faceOf(p0, p1, p2) {
@@ -63,15 +66,21 @@ function sumsOfFaceNormals({ piece, surface }, positions, weight) {
 export function decodeNormals(coding, models, attribute, positions) {
 	const C = centreOf(attribute.bits), blend = (attribute.predictor & BLEND) !== 0;
 	const S = sumsOfFaceNormals(coding.wedges, positions, attribute.predictor & 3);
+	const valueOfMate = valuesOfMates(coding, models, attribute, (value, axis) => mirroredValue(C, value, axis));
+	const readUsing = (used, context) => {
+		const frame = size(used) > f(1e-30) ? frameOfVector(C, used) : frameAround(C, last);
+		return readPoint(coding.coder, models.ROW, frame, context);
+	};
 	let last = [0, 0];
-	codeBundles(coding, ({ members, entry, n, p }) => {
+	codeBundles(coding, ({ w, members, entry, n, p }) => {
 		let direction = sumOf(members.map((member) => S[member]));
 		if (blend) direction = scale32(direction, size(direction) > f(1e-30) ? f(1 / size(direction)) : 0);
 		let used = direction;
 		if (blend && entry !== NONE) used = add32(direction, scale32(add32(S[n], S[p]), 0.25));
 		const context = entry === NONE ? NO_NEIGHBOURS : contextOf(coding, n, p);
-		const frame = size(used) > f(1e-30) ? frameOfVector(C, used) : frameAround(C, last);
-		const { point, length } = readPoint(coding.coder, models.ROW, frame, context);
+		const image = valueOfMate(w);
+		const { point, length } = image === undefined
+			? readUsing(used, context) : { point: pointOfValue(C, image), length: context };
 		last = point;
 		if (blend) {
 			const i = f(1 / C);

@@ -77,6 +77,15 @@ export function readPoint(coder, ROW, frameOfPoint, context, { k, slope } = { k:
 	return { point, length: Math.max(first.length, second.length) };
 }
 
-// [A.10.8] The value of a point: its place on the grid.
+// [A.10.8] The value of a point: its place on the grid; and the point of a value.
 export const gridPoint = (C, point) => [point[0] + C, point[1] + C];
+export const pointOfValue = (C, value) => [value[0] - C, value[1] - C];
+
+// [A.10.20] The image of a value under a mirror across this axis.
+export function mirroredValue(C, value, axis) {
+	const [x, y] = pointOfValue(C, value);
+	const point = [[-x, y], [x, -y], turnOver(C, [x, y])][axis];
+	const isOnRim = point.some((c) => Math.abs(c) === C);
+	return gridPoint(C, isOnRim ? turnOver(C, turnOver(C, point)) : point);
+}
 export const sumOf = (vectors) => vectors.reduce(add32);

@@ -52,14 +52,14 @@ function decodePiece(coder, models, piece) {
 	const surface = piece.PIVOTS
 		? decodePivots(coder, models.pivots, piece) : decodeConnectivity(coder, models.connectivity, piece);
 	const groups = groupsOf(coder, models, piece, surface);
-	const { q, sequence } = positionsOf(coder, models, piece, surface, groups);
+	const { q, sequence, mates } = positionsOf(coder, models, piece, surface, groups);
 	const crease = creasesOf(piece, surface, piece.CREASES ? seenPositions(piece.attributes[0], q) : []);
 	const { starts, groupOf } = seamsOf(coder, models, piece, surface, groups, sequence, crease);
 	const table = decodeTriangles(coder, models.triangles, piece, surface);
 	const { parts, wedgeOrder } = ordersOf(coder, models.orders, piece, surface, table);
 	let values = [];
 	if (piece.attributes.length !== 0) {
-		const wedges = createWedges(piece, surface, starts, groupOf);
+		const wedges = createWedges(piece, surface, starts, groupOf, mates);
 		const recordOf = (w) => (w < piece.surface_wedges ? groupOf[w] : groups.count + w - piece.surface_wedges);
 		values = decodeAttributes(coder, models, piece, wedges, q, recordOf, crease);
 	}

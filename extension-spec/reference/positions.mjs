@@ -25,7 +25,8 @@ export const positionModels = () => ({
 	planes: planeModels(), mirrors: mirrorModels(),
 });
 
-// [A.6] The coordinates q of every group, then of every isolated wedge, and the sequence of the groups.
+// [A.6] The coordinates q of every group, then of every isolated wedge, the sequence of the groups and, with mirrors,
+// their mates.
 export function decodePositions(coder, models, gridModels, piece, surface, groups) {
 	const attribute = piece.attributes[0];
 	const { predictor } = attribute;
@@ -45,7 +46,7 @@ export function decodePositions(coder, models, gridModels, piece, surface, group
 	});
 	for (const q of readIsolated(coder, models.isolated, piece.isolated_count)) p.q.push(q);
 	if (attribute.coding === GRID) readTails(coder, gridModels, attribute, p.q);
-	return { q: p.q, sequence };
+	return { q: p.q, sequence, mates: p.mates };
 }
 
 // [A.6.3] The degrees of all groups.

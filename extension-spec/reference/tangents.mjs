@@ -2,11 +2,13 @@
 
 // Tangents [A.10.13]. All floats are f32.
 
-import { arrayOf, bit } from './entropy.mjs';
+import { arrayOf, bit, noOutcomes, recentBit, recentModels } from './entropy.mjs';
 import { add32, dot32, f, finite, round32 } from './floats.mjs';
 import { addTo, axesOf, planeAngle, projectOnPlane } from './directions.mjs';
 import { faceOf } from './normals.mjs';
-import { centreOf, frameAround, frameOfVector, gridPoint, lineOfPlane, readPoint, size, unitVector } from './octahedral.mjs';
+import {
+	centreOf, frameAround, frameOfVector, gridPoint, lineOfPlane, pointOfValue, readPoint, size, unitVector,
+} from './octahedral.mjs';
 import { NO_NEIGHBOURS, contextOf, contextRows, smallSigned } from './residuals.mjs';
 import { NONE, next, prev } from './surface.mjs';
 import { codeBundles, neighbourAlongRun } from './wedges.mjs';
@@ -27,18 +29,14 @@ const readSign = (coder, models, T) => (bit(coder, models.NEGATIVE[signContext(T
 
 // The bits of `predictor`.
 const REPEATS = 1, FACES = 2, KEYS = 256;
-const sameModels = () => arrayOf(2, () => arrayOf(2, () => arrayOf(4)));
+const sameModels = () => arrayOf(2, () => arrayOf(2, recentModels));
 
 // [A.10.19] The function that reads whether a bundle has the value of another, and yields that; normalAt(w) is a grid point.
 function repeatsOf(coding, models, attribute, normalAt) {
 	if ((attribute.predictor & REPEATS) === 0) return () => undefined;
-	const { coder, values } = coding, hits = [0, 0], latest = new Array(KEYS).fill(NONE);
+	const { coder, values } = coding, recent = [noOutcomes(), noOutcomes()], latest = new Array(KEYS).fill(NONE);
 	const isEqual = (x, y) => x.every((number, i) => number === y[i]);
-	const ask = (i, d) => {
-		const same = bit(coder, models.SAME[i][d][hits[i]]);
-		hits[i] = (2 * hits[i] + same) & 3;
-		return same;
-	};
+	const ask = (i, d) => recentBit(coder, models.SAME[i][d], recent[i]);
 	return (w, d) => {
 		const normal = normalAt(w), key = (normal[0] + 37 * normal[1]) % KEYS;
 		const a = neighbourAlongRun(coding, w), b = latest[key];
@@ -87,7 +85,7 @@ export function decodeTangentPoints(coding, models, attribute, T, normal, normal
 	codeBundles(coding, ({ w, entry, n, p }) => {
 		const repeat = repeated(w, size(T[w]) > f(1e-6) ? 1 : 0);
 		if (repeat !== undefined) {
-			last = [repeat[0] - C, repeat[1] - C];
+			last = pointOfValue(C, repeat);
 			return { value: repeat, length: 0 };
 		}
 		const V = inFaces ? undefined : normal(w);

@@ -4,6 +4,7 @@
 
 import { dot32, f, max, round32, subtract32 } from './floats.mjs';
 import { ask, beginQuestions, createMemory, edgeKey, learnFaces, memoryModels } from './memory.mjs';
+import { mateModels, valuesOfMates } from './mates.mjs';
 import { NO_NEIGHBOURS, byLength, contextAfter, contextOf, contextRows } from './residuals.mjs';
 import { squaredDistance } from './seenpositions.mjs';
 import { NONE, next, prev } from './surface.mjs';
@@ -12,7 +13,7 @@ import { codeBundles, neighbourAlongRun } from './wedges.mjs';
 const HINGE = 1, REMEMBERS = 2;
 const MOST_FACES = 4;
 const ALONG_RUN = 10;
-export const texcoordModels = () => ({ ROW: [contextRows(), contextRows()], ...memoryModels() });
+export const texcoordModels = () => ({ ROW: [contextRows(), contextRows()], ...memoryModels(), ...mateModels() });
 const diff = (a, b) => [f((a[0] - b[0]) | 0), f((a[1] - b[1]) | 0)];
 const add2 = (a, b) => [f(a[0] + b[0]), f(a[1] + b[1])];
 const cross2 = (a, b) => f(f(a[0] * b[1]) - f(a[1] * b[0]));
@@ -24,11 +25,13 @@ export function decodeTexcoords(coding, models, attribute, positions) {
 	const numbersOf = (w) => values[w].map((x) => x >>> 0);
 	const memory = attribute.predictor & REMEMBERS
 		? createMemory(coding, models, coding.wedges.piece.face_count, numbersOf) : undefined;
+	const valueOfMate = valuesOfMates(coding, models, attribute, (value) => value);
 	let last = [0, 0], side = 1;
 	codeBundles(coding, (bundle) => {
 		const faces = facesOf(coding, bundle);
 		const { predicted, context } = predict(coding, bundle, faces, positions, hinge, last, side);
-		const result = readValue(coding, models, memory, faces, predicted, context);
+		const known = valueOfMate(bundle.w) ?? valueOfMemory(memory, coding, faces);
+		const result = known === undefined ? readValue(coding, models, predicted, context) : { value: known, length: context };
 		last = result.value;
 		if (hinge && faces.length !== 0) side = sideOf(values, faces[0], last, side);
 		return result;
@@ -63,13 +66,16 @@ function predict(coding, { w }, faces, positions, hinge, last, side) {
 	return { predicted, context: contextOf(coding, n, p) };
 }
 
-function readValue({ coder, values }, models, memory, faces, predicted, context) {
-	if (memory !== undefined && faces.length !== 0) {
-		const { n, p, o } = faces[0];
-		beginQuestions(memory);
-		const hit = ask(memory, edgeKey(memory, n, p), o === n ? undefined : o);
-		if (hit !== undefined) return { value: values[hit], length: context };
-	}
+// The value of the memory that is that of the bundle, or undefined.
+function valueOfMemory(memory, { values }, faces) {
+	if (memory === undefined || faces.length === 0) return undefined;
+	const { n, p, o } = faces[0];
+	beginQuestions(memory);
+	const hit = ask(memory, edgeKey(memory, n, p), o === n ? undefined : o);
+	return hit === undefined ? undefined : values[hit];
+}
+
+function readValue({ coder }, models, predicted, context) {
 	const r0 = byLength(coder, 0, models.ROW[0][context]);
 	const r1 = byLength(coder, 1, models.ROW[1][contextAfter(context, r0.length)]);
 	const value = [(predicted[0] + r0.residual) | 0, (predicted[1] + r1.residual) | 0];

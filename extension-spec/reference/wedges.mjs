@@ -10,7 +10,8 @@ const LONGEST_RUN = 16;
 const NOT_CODED = 255;
 
 // [A.10.1] The wedges of a piece. `starts` are in coding order; isolated wedges come after those on the surface.
-export function createWedges(piece, surface, starts, groupOf) {
+// `mates` are those of the groups, undefined without mirrors.
+export function createWedges(piece, surface, starts, groupOf, mates) {
 	const order = starts.map((h) => surface.tail[h]);
 	const rank = new Int32Array(piece.surface_wedges), start = new Int32Array(piece.wedge_count).fill(NONE);
 	order.forEach((w, i) => {
@@ -18,7 +19,7 @@ export function createWedges(piece, surface, starts, groupOf) {
 		start[w] = starts[i];
 	});
 	for (let w = piece.surface_wedges; w < piece.wedge_count; ++w) order.push(w);
-	return { piece, surface, order, start, groupOf, completed: completedBy(piece, surface, rank) };
+	return { piece, surface, order, start, groupOf, mates, completed: completedBy(piece, surface, rank) };
 }
 
 // The half-edges that each wedge completes: a face belongs to its corner with the highest rank.

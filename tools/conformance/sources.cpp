@@ -8,6 +8,7 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <map>
 
 #include "support/mesh_generators.h"
 #include "support/mirrored.h"
@@ -1190,6 +1191,50 @@ void mirroredSurfaces(std::vector<Source>& all) {
       single("isolated", "Isolated wedges have no images", withUnused(one, 3, 9), positions));
 }
 
+/// Normals and texture coordinates that a vertex and its images under x -> -x share, `kinds` of
+/// them for the wedges of each vertex.
+TestMesh withSharedValues(TestMesh mesh, uint32_t kinds) {
+  mesh.normals.clear();
+  mesh.texcoords.clear();
+  std::map<std::array<float, 3>, uint32_t> wedges_at;
+  for (uint32_t w = 0; w < mesh.vertexCount(); ++w) {
+    const float* p = &mesh.positions[3 * size_t{w}];
+    const uint32_t kind = wedges_at[{p[0], p[1], p[2]}]++ % kinds;
+    Random random(kind);
+    float n[3];
+    for (int s = 0; s < 3; ++s) {
+      random = Random(random.next() + static_cast<uint64_t>(1000 * std::fabs(p[s])));
+      n[s] = std::copysign(static_cast<float>(random.below(4)), p[s]);
+    }
+    if (n[0] == 0 && n[1] == 0) n[2] = std::copysign(1.0f, p[2]);
+    const float scale = 1 / std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (const float x : n) mesh.normals.push_back(x * scale);
+    for (int c = 0; c < 2; ++c) mesh.texcoords.push_back(random.unit());
+  }
+  return mesh;
+}
+
+void matesOfSurfaces(std::vector<Source>& all) {
+  const auto fill = [](SourceBuilder& b) {
+    b.positions(10);
+    b.normals(4);
+    b.texcoords("TEXCOORD_0", 7);
+  };
+  const TestMesh one = mirrored(halfSheet(5, 4, 1), 0);
+  const TestMesh three = mirrored(mirrored(mirrored(halfSheet(3, 3, 2), 0), 1), 2);
+  all.push_back(single("one", "halves without seams", withSharedValues(one, 1), fill));
+  all.push_back(single("three", "eight parts, with seams",
+                       withSharedValues(withRandomWedges(three, 3, 3), 3), fill));
+  all.push_back(single("crowded", "vertices with more wedges than are looked at",
+                       withSharedValues(withRandomWedges(mirrored(openFan(12), 1), 4, 7), 7),
+                       fill));
+  all.push_back(single("two_charts", "two sets of texture coordinates, isolated wedges",
+                       withSharedValues(withUnused(one, 3, 9), 2), [&](SourceBuilder& b) {
+                         fill(b);
+                         b.texcoords("TEXCOORD_1", 3);
+                       }));
+}
+
 /// Triangles with wedges of their own, whose normals are smooth nevertheless.
 TestMesh sphereOfFaces() {
   TestMesh mesh = flatShaded(icosphere(0));
@@ -1259,7 +1304,7 @@ Source repeatsInPieces() {
   Source source = single("tangents_repeats_in_pieces", "points without normals, in two pieces",
                          torus(5, 4), fill);
   source.pieces.push_back(source.pieces[0]);
-  source.options.variation = 6;  // which do not lie in faces
+  source.options.variation = 3;  // which do not lie in faces
   return source;
 }
 
@@ -1291,6 +1336,25 @@ std::vector<Source> mirroredSources() {
   return all;
 }
 
+std::vector<Source> matesSources() {
+  std::vector<Source> all;
+  matesOfSurfaces(all);
+  for (size_t i = 0, plain = all.size(); i < plain; ++i) {
+    for (uint64_t variation = 1; variation <= 3; ++variation) {
+      Source source = all[i];
+      source.name += "_" + std::to_string(variation);
+      source.options.variation = 10 * i + variation;
+      all.push_back(std::move(source));
+    }
+  }
+  for (Source& source : all) {
+    source.name = "mates_" + source.name;
+    source.shows = "Values of mates: " + source.shows;
+    source.options.without = {};
+  }
+  return all;
+}
+
 std::vector<Source> tangentSources() {
   std::vector<Source> all;
   const TestMesh cut = withTwoNormals(withRandomWedges(torus(6, 4), 4, 3));
@@ -1313,7 +1377,7 @@ std::vector<Source> tangentSources() {
                        }));
   all.back().options.variation = 3;  // which lie in faces
   all.push_back(repeatsInPieces());
-  all.push_back(inBlocks("of_tangents", "angles", cut, 20, 1, anglesInHalfAChart));
+  all.push_back(inBlocks("of_tangents", "angles", cut, 20, 3, anglesInHalfAChart));
   for (Source& source : all) {
     source.shows = "Version 1.1: " + source.shows;
     source.options.without = {};

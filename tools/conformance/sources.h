@@ -29,6 +29,9 @@ std::vector<Source> rareSources();
 
 /// Sources of version 1.1, with mirrors. The first has positions on a lattice alone.
 std::vector<Source> mirroredSources();
+/// Sources of version 1.1, with normals and texture coordinates of mates.
+std::vector<Source> matesSources();
+
 /// Sources of assets of minor version 1: tangents that repeat, or lie in faces.
 std::vector<Source> tangentSources();
 

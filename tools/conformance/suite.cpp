@@ -285,11 +285,16 @@ Suite makeSuite() {
   addFound(candidates);
   for (const Source& source : rareSources()) addAsset(candidates, encodeSource(source));
   addSpellings(candidates);
-  for (const Source& source : mirroredSources()) {
-    Asset asset = encodeSource(source);
-    if (asset.payload[kVersionOffset] != kVersionMajor << 4) addAsset(candidates, std::move(asset));
-  }
-  for (const Source& source : tangentSources()) addAsset(candidates, encodeSource(source));
+  const auto addOfVersion11 = [&](const std::vector<Source>& sources) {
+    for (const Source& source : sources) {
+      Asset asset = encodeSource(source);
+      const bool is_new = asset.payload[kVersionOffset] != kVersionMajor << 4;
+      if (is_new) addAsset(candidates, std::move(asset));
+    }
+  };
+  addOfVersion11(mirroredSources());
+  addOfVersion11(tangentSources());
+  addOfVersion11(matesSources());
   numberNames(candidates);
   Suite suite;
   Json manifest = {{"extension", gltf::kExtensionName},

@@ -38,6 +38,7 @@ enum class Feature : uint8_t {
   kExactGrids,
   kMemory,
   kMirrors,
+  kMates,
   kTangentRepeats,
   kTangentFaces,
 };
@@ -76,6 +77,7 @@ inline constexpr FeatureInfo kFeatures[] = {
     {Feature::kExactGrids, "exact-grids", "A.10.5", "exact floats as ordered integers"},
     {Feature::kMemory, "memory", "A.10.10", "charts and exact normals remember nothing"},
     {Feature::kMirrors, "mirrors", "A.6.14", "mirrored halves are coded twice"},
+    {Feature::kMates, "mates", "A.10.20", "no flags for values that a mate has"},
     {Feature::kTangentRepeats, "tangent-repeats", "A.10.19", "no flags for repeated tangents"},
     {Feature::kTangentFaces, "tangent-faces", "A.10.19", "tangents beside normals, not in faces"},
 };

@@ -21,6 +21,10 @@ namespace mcc {
 /// consecutive wedges of a vertex may share a value.
 inline constexpr uint8_t kHasEqualities = 0x80;
 
+/// A bit of `predictor` for normals and texture coordinates: flags say whether a value is that of a
+/// mate.
+inline constexpr uint8_t kHasMates = 0x40;
+
 /// The bits of a position select what its coder does. Modes that are off cost the coder
 /// nothing. [A.6.2]
 namespace position_mode {
@@ -140,6 +144,10 @@ inline constexpr PredictorField kTangentRepeats = {
     tangent_method::kRepeats, 2, Feature::kTangentRepeats, {{"", "", 0}, {"repeats", "A.10.19", 5}},
     decodes::kTangentRepeats, 1};
 
+/// It is the last: what it gains is compared with all others.
+inline constexpr PredictorField kMates = {
+    kHasMates, 2, Feature::kMates, {{"", "", 0}, {"mates", "A.10.20", 5}}, decodes::kMirrors, 1};
+
 /// A mode of positions.
 constexpr PredictorField modeField(uint8_t mask, Feature feature, const char* word,
                                    const char* sections, uint8_t ns, bool is_decoded = true) {
@@ -178,14 +186,14 @@ inline constexpr MethodInfo kMethods[] = {
      "",
      "A.10.8 A.10.1 A.10.2 A.10.6 A.10.7 A.6.13",
      kHasEqualities | 1,
-     3,
-     {detail::kNormalWeight, detail::kNormalBlend, detail::kEqualities}},
+     4,
+     {detail::kNormalWeight, detail::kNormalBlend, detail::kEqualities, detail::kMates}},
     {AttributeMethod::kTexcoord,
      "texture coordinate",
      "",
      "A.10.11 A.10.1 A.10.2",
      kHasEqualities,
-     3,
+     4,
      {{texcoord_method::kHinge,
        2,
        Feature::kTexcoordHinge,
@@ -194,7 +202,8 @@ inline constexpr MethodInfo kMethods[] = {
        2,
        Feature::kMemory,
        {{"", "", 0}, {"remembers", "A.10.10", 25}}},
-      detail::kEqualities}},
+      detail::kEqualities,
+      detail::kMates}},
     {AttributeMethod::kTangent,
      "tangent angle",
      "chart",
@@ -276,6 +285,11 @@ constexpr bool isValidPredictor(AttributeMethod method, uint8_t predictor) {
   }
   return rest == 0 &&
          (method != AttributeMethod::kPosition || position_mode::goTogether(predictor));
+}
+
+constexpr bool asksMates(AttributeMethod method, uint8_t predictor) {
+  const bool may_ask = method == AttributeMethod::kNormal || method == AttributeMethod::kTexcoord;
+  return may_ask && (predictor & kHasMates) != 0;
 }
 
 /// The minor version of the format that has everything a byte asks for.

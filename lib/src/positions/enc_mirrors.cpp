@@ -7,6 +7,8 @@
 #include <unordered_set>
 #include <vector>
 
+#include "base/enc_exceptions.h"
+
 namespace mcc {
 namespace {
 
@@ -115,6 +117,32 @@ Mirrors findMirrors(std::span<const int32_t> positions, uint32_t sum_bits) {
     if (mirrors.count < kMaxMirrors) mirrors.mirror[mirrors.count++] = f.mirror;
   }
   return mirrors;
+}
+
+void guessMates(std::span<const int32_t> positions, std::span<const uint32_t> order,
+                const Mirrors& mirrors, VertexMates& mates) {
+  mates.mirror_count = mirrors.count;
+  if (!mates.states.assign(size_t{1 + mirrors.count} * order.size(), kNone)) throwBadAlloc();
+  for (uint32_t m = 0; m < mirrors.count; ++m) mates.axis[m] = mirrors.mirror[m].axis;
+  std::unordered_map<Point, uint32_t, PointHash> at;
+  for (const uint32_t v : order) {
+    Point p;
+    std::copy_n(&positions[3 * size_t{v}], 3, p.data());
+    at[p] = v;
+    for (uint32_t m = 0; m < mirrors.count; ++m) {
+      const uint32_t axis = mirrors.mirror[m].axis;
+      for (const uint32_t off : {0u, ~0u, 1u}) {
+        Point q = p;
+        q[axis] = static_cast<int32_t>(static_cast<uint32_t>(mirrors.mirror[m].sum) + off -
+                                       static_cast<uint32_t>(p[axis]));
+        const auto mate = at.find(q);
+        if (mate == at.end() || mates.mateOf(m, mate->second) != kNone) continue;
+        mates.mateOf(m, v) = mate->second;
+        mates.mateOf(m, mate->second) = v;
+        break;
+      }
+    }
+  }
 }
 
 }  // namespace mcc

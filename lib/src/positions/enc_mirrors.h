@@ -16,6 +16,11 @@ namespace mcc {
 /// The time is linear in the number of positions.
 Mirrors findMirrors(std::span<const int32_t> positions, uint32_t sum_bits);
 
+/// Finds about the mates that the positions will have when they are coded with these mirrors: those
+/// whose images are at most a step along the axis away. `order` lists the vertices in coding order.
+void guessMates(std::span<const int32_t> positions, std::span<const uint32_t> order,
+                const Mirrors& mirrors, VertexMates& mates);
+
 }  // namespace mcc
 
 #endif  // MCC_POSITIONS_ENC_MIRRORS_H_

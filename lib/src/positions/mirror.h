@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "mcc/status.h"
+#include "mesh/vertex_mates.h"
 
 namespace mcc {
 
@@ -16,7 +17,6 @@ struct Mirror {
   uint32_t axis;
   int32_t sum;
 };
-inline constexpr uint32_t kMaxMirrors = 3;
 struct Mirrors {
   Mirror mirror[kMaxMirrors] = {};
   uint32_t count = 0;

@@ -17,7 +17,7 @@ class MirroredPositionCoder {
  public:
   MirroredPositionCoder(Io& io, PositionModels& models, MirrorModels& mirror_models,
                         const PositionParameters& parameters, const Mirrors& mirrors,
-                        FaceMesh& mesh, const GroupPositions& vertices)
+                        VertexMates& mates, FaceMesh& mesh, const GroupPositions& vertices)
       : io_(io),
         models_(mirror_models),
         parameters_(parameters),
@@ -27,7 +27,7 @@ class MirroredPositionCoder {
         vertex_(models.rows, parameters, vertices.records, vertices.truth),
         growth_(mesh, vertices.groups, vertices.records, parameters.has(position_mode::kWeights),
                 mesh.allocator()),
-        mates_(growth_.faces(), vertices.records, mirrors, mesh.allocator()) {}
+        mates_(growth_.faces(), vertices.records, mirrors, mates, mesh.allocator()) {}
 
   Status run(uint32_t* order) {
     if (!mates_.init(vertex_count_)) return fail(Error::kOutOfMemory, "no memory for the mirrors");

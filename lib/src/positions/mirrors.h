@@ -61,15 +61,14 @@ struct MirrorModels {
 /// bounded number of steps, and few branches that a processor cannot foresee.
 class MirrorMates {
  public:
+  /// `mates` receives the mates.
   MirrorMates(const FaceView& faces, const VertexRecord* records, const Mirrors& mirrors,
-              const Allocator& allocator)
-      : faces_(faces),
-        records_(records),
-        count_(mirrors.count),
-        states_(allocator),
-        at_(allocator) {
+              VertexMates& mates, const Allocator& allocator)
+      : faces_(faces), records_(records), count_(mirrors.count), mates_(mates), at_(allocator) {
+    mates_.mirror_count = count_;
     for (uint32_t m = 0; m < count_; ++m) {
       const Mirror& mirror = mirrors.mirror[m];
+      mates_.axis[m] = mirror.axis;
       flip_[m][mirror.axis] = ~0u;
       move_[m][mirror.axis] = static_cast<uint32_t>(mirror.sum) + 1;
     }
@@ -78,7 +77,7 @@ class MirrorMates {
   [[nodiscard]] bool init(uint32_t vertex_count) {
     const uint32_t width = std::bit_width(vertex_count) + 1u;
     shift_ = 32 - width;
-    return states_.assign(size_t{1 + count_} * vertex_count, kNotCoded) &&
+    return mates_.states.assign(size_t{1 + count_} * vertex_count, kNotCoded) &&
            at_.assign(size_t{1} << width, kNone);
   }
 
@@ -140,10 +139,8 @@ class MirrorMates {
   static constexpr uint32_t kNotCoded = kNone - 1;
   static constexpr uint32_t kIsFound = kNone - 2;
 
-  uint32_t& startOf(uint32_t vertex) { return states_[vertex * size_t{1 + count_}]; }
-  uint32_t& mateOf(uint32_t mirror, uint32_t vertex) {
-    return states_[vertex * size_t{1 + count_} + 1 + mirror];
-  }
+  uint32_t& startOf(uint32_t vertex) { return mates_.startOf(vertex); }
+  uint32_t& mateOf(uint32_t mirror, uint32_t vertex) { return mates_.mateOf(mirror, vertex); }
   /// sum - x is ~x + sum + 1.
   Lanes<uint32_t> image(const Lanes<uint32_t>& q, uint32_t mirror) const {
     return (q ^ flip_[mirror]) + move_[mirror];
@@ -200,7 +197,7 @@ class MirrorMates {
   /// Collects the vertices around that of `start` which are coded and have no mate yet.
   void collectAround(uint32_t mirror, uint32_t start) {
     uint32_t count = found_count_;
-    uint32_t* const mates = states_.data() + 1 + mirror;
+    uint32_t* const mates = &mateOf(mirror, 0);
     const size_t stride = 1 + count_;
     const auto collect = [&](uint32_t vertex) MCC_INLINE_LAMBDA {
       uint32_t& mate = mates[vertex * stride];
@@ -235,8 +232,7 @@ class MirrorMates {
   const uint32_t count_;  ///< of mirrors
   Lanes<uint32_t> flip_[kMaxMirrors] = {};
   Lanes<uint32_t> move_[kMaxMirrors] = {};
-  /// For each vertex a half-edge that leaves it, and its mates under each mirror.
-  Array<uint32_t> states_;
+  VertexMates& mates_;
   Array<uint32_t> at_;  ///< the last vertex by the hash of its position
   uint32_t shift_ = 0;
   Found found_[kMostFound + 1] = {};  ///< and room for one that is not kept

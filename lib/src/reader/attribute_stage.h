@@ -102,6 +102,7 @@ class AttributeStage {
         exact_normals_(allocator),
         unit_normals_(allocator),
         memory_(allocator),
+        mates_(allocator),
         lengths_(allocator) {
     for (uint32_t i = 1; i < attributes.size(); ++i) {
       has_tangents_ |= codingPhase(attributes[i]) == 1;
@@ -138,6 +139,17 @@ class AttributeStage {
       if (Io::kEncoding && attributes_[i].coding == AttributeCoding::kGrid) return true;  // perhaps
     }
     return false;
+  }
+
+  /// Lists the wedges at the mates of each vertex, unless no attribute asks for them. Borrows
+  /// `mates`, of vertices.
+  Status findWedgeMates(VertexMates& mates, uint32_t vertex_count) {
+    bool asks = Io::kEncoding;  // perhaps
+    for (uint32_t i = 1; i < attributes_.size() && !asks; ++i)
+      asks = asksMates(methodOf(attributes_, i), attributes_[i].predictor);
+    if (asks) return mates_.build(wedges, mates, vertex_count);
+    mates.states.reset();
+    return {};
   }
 
   TangentNormals tangentNormals() const {
@@ -230,7 +242,7 @@ class AttributeStage {
 
   Status codeNormals(const Job& job) {
     if (!floats_.resize(4 * size_t{wedges.count})) return noMemory();
-    return run<NormalCoder>(job, models_.normals, floats_.data());
+    return run<NormalCoder>(job, models_.normals, matesFor(job), floats_.data());
   }
 
   Status codeExactNormals(const Job& job) {
@@ -260,7 +272,12 @@ class AttributeStage {
     TexcoordMemory memory(memory_);
     if (remembers && !memory.start(wedges.face_count, job.values)) return noMemory();
     return run<TexcoordCoder>(job, models_.texcoords[job.info.format.set_index != 0 ? 1 : 0],
-                              remembers ? &memory : nullptr);
+                              matesFor(job), remembers ? &memory : nullptr);
+  }
+
+  /// The mates of wedges, null if an attribute does not ask for them or there are none.
+  const WedgeMates* matesFor(const Job& job) const {
+    return !mates_.empty() && (job.info.predictor & kHasMates) != 0 ? &mates_ : nullptr;
   }
 
   /// What the chart says about tangents, into floats_: 4 per wedge.
@@ -328,6 +345,7 @@ class AttributeStage {
   Array<int32_t> exact_normals_;    ///< 3 ordered floats per wedge, only with tangents
   Array<float> unit_normals_;       ///< 3 per wedge, see listNormals()
   Array<MemoryEntry> memory_;
+  WedgeMates mates_;
   Array<uint8_t> lengths_;
 };
 

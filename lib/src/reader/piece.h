@@ -102,6 +102,7 @@ class CodedPiece {
         mc_edges(allocator),
         groups(allocator),
         records(allocator),
+        mates(allocator),
         sequence(allocator),
         wedge_group(allocator),
         list(allocator),
@@ -147,6 +148,7 @@ class CodedPiece {
   Array<McEdgeCorners> mc_edges;  ///< only if wanted
   Groups groups;
   Array<VertexRecord> records;  ///< by group
+  VertexMates mates;            ///< of groups, only with mirrors
   /// A half-edge per group, after codeSeams() per wedge, in coding order.
   Array<uint32_t> sequence;
   Array<uint32_t> wedge_group;  ///< only with seams
@@ -455,6 +457,8 @@ Status PieceCoder<Io>::prepareAttributes() {
   if (header_.attribute_count < 2) return {};
   MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
                               header_.has(piece_flag::kSeams) ? wedge_group.data() : nullptr));
+  if (decodes::kMirrors && mates.mirror_count != 0)
+    MCC_TRY(stage_.findWedgeMates(mates, groups.count));
   if (stage_.needsExactPositions()) MCC_TRY(listExactPositions());
   MCC_TRY(findGroupPositions());
   records.reset();
@@ -491,8 +495,8 @@ Status PieceCoder<Io>::runMirrored(const PositionParameters& parameters, const M
   MirrorModels* const models = models_.mirrors.get(allocator_);
   if (models == nullptr) return noMemory();
   const GroupPositions vertices{groups, records.data(), truth.positions};
-  return MirroredPositionCoder<Io>(io_, models_.positions, *models, parameters, mirrors, mesh,
-                                   vertices)
+  return MirroredPositionCoder<Io>(io_, models_.positions, *models, parameters, mirrors, mates,
+                                   mesh, vertices)
       .run(needsSequence() ? sequence.data() : nullptr);
 }
 

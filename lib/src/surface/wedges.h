@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // What all attributes of a piece share: the order of the wedges, the faces that each wedge
-// completes, positions as the predictions see them, and groups of wedges with equal values. [A.10.1]
+// completes, positions as the predictions see them, and groups of wedges with equal values.
+// [A.10.1]
 #ifndef MCC_SURFACE_WEDGES_H_
 #define MCC_SURFACE_WEDGES_H_
 
@@ -51,6 +52,9 @@ class WedgeMesh {
   /// come before it in coding order.
   uint32_t firstCompleted(uint32_t wedge) const { return completed_[wedge]; }
   uint32_t nextCompleted(uint32_t h) const { return faces.words[(h & ~7u) + kFaceWord]; }
+  uint32_t vertexOf(uint32_t w) const {
+    return group_of_wedge_ == nullptr ? w : group_of_wedge_[w];
+  }
   /// Returns whether wedge `w` is on the same vertex as wedge w-1.
   bool continuesVertex(uint32_t w) const {
     return group_of_wedge_ != nullptr && w != 0 && w < surface_count &&

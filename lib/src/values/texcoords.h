@@ -24,6 +24,7 @@
 #include "surface/face_pass.h"
 #include "surface/wedges.h"
 #include "values/attribute_job.h"
+#include "values/mate_values.h"
 #include "values/residuals.h"
 #include "values/value_memory.h"
 
@@ -32,6 +33,7 @@ namespace mcc {
 struct TexcoordModels {
   TokenRow row[2][kLengthContexts];
   MemoryModels memory;
+  MateModels mates;
 
   TexcoordModels() {
     for (auto& component : row) {
@@ -53,10 +55,12 @@ template <class Io>
 class TexcoordCoder {
  public:
   /// `memory` has been started with the values; it is null if the predictor remembers nothing.
-  TexcoordCoder(const AttributeJob<Io>& job, TexcoordModels& models, TexcoordMemory* memory)
+  TexcoordCoder(const AttributeJob<Io>& job, TexcoordModels& models, const WedgeMates* mates,
+                TexcoordMemory* memory)
       : job_(job),
         models_(models),
         is_hinge_((job.info.predictor & texcoord_method::kHinge) != 0),
+        mates_(job, models.mates, mates),
         memory_(memory) {}
 
   void run() {
@@ -93,6 +97,7 @@ class TexcoordCoder {
   Faces completedFaces(uint32_t w) const;
   Prediction predictByDiagonal(const Faces& faces) const;
   Prediction predictByHinge(uint32_t v, const Faces& faces) const;
+  bool codeMate(uint32_t w);
   bool codeKnown(uint32_t w, const Faces& faces);
   void predictFrom(uint32_t w, const Faces& faces, int32_t* predicted) const;
   void learnSide(uint32_t w, uint32_t n, uint32_t p);
@@ -101,6 +106,7 @@ class TexcoordCoder {
   const AttributeJob<Io> job_;
   TexcoordModels& models_;
   const bool is_hinge_;
+  MateValues<Io> mates_;
   TexcoordMemory* const memory_;
   float side_ = 1;  ///< of the chart a face's tip lies on: 1 left of its edge, as in the last face
   int32_t last_[2] = {};
@@ -236,6 +242,15 @@ MCC_SHARED void TexcoordCoder<Io>::predictFrom(uint32_t w, const Faces& faces,
   }
 }
 
+/// Whether the value is that of a mate; it is then in place.
+template <class Io>
+bool TexcoordCoder<Io>::codeMate(uint32_t w) {
+  const auto same = [](uint32_t, const int32_t* value, int32_t* to) { std::copy_n(value, 2, to); };
+  if (!mates_.code(w, same)) return false;
+  std::copy(at(w), at(w) + 2, last_);
+  return true;
+}
+
 /// Whether the value is one that stood beside those of the first face before; it is then in place.
 template <class Io>
 bool TexcoordCoder<Io>::codeKnown(uint32_t w, const Faces& faces) {
@@ -257,7 +272,7 @@ void TexcoordCoder<Io>::codeGroup(uint32_t w) {
   const uint32_t n = has_faces ? faces.n[0] : job_.neighbourAlongRun(w);
   uint32_t context = n == kNone ? kNoNeighbours : kOneNeighbour;
   if (has_faces) context = job_.contextOf(n, faces.p[0]);
-  if (memory_ != nullptr && has_faces && codeKnown(w, faces)) {
+  if (codeMate(w) || (memory_ != nullptr && has_faces && codeKnown(w, faces))) {
     job_.lengths[w] = static_cast<uint8_t>(context);
   } else {
     int32_t predicted[2] = {last_[0], last_[1]};

@@ -18,6 +18,7 @@
 #include "surface/face_pass.h"
 #include "surface/wedges.h"
 #include "values/attribute_job.h"
+#include "values/mate_values.h"
 #include "values/residuals.h"
 #include "vectors/octahedral.h"
 
@@ -32,6 +33,7 @@ enum class NormalWeight : uint8_t {
 
 struct NormalModels {
   TokenRow row[2][kLengthContexts];
+  MateModels mates;
 
   NormalModels() {
     for (auto& component : row) {
@@ -202,6 +204,18 @@ inline void canonicalGridPoint(int32_t centre, int32_t* point) {
   point[1] = p[1] + centre;
 }
 
+/// The grid point that stands for the direction of `value`, mirrored across an axis. [A.10.20]
+inline void mirrorGridPoint(int32_t centre, uint32_t axis, const int32_t* value, int32_t* to) {
+  int32_t p[2] = {value[0] - centre, value[1] - centre};
+  if (axis == 2) {
+    OctahedralFrame::turnOver(p, centre);
+  } else {
+    p[axis] = -p[axis];
+  }
+  for (int s = 0; s < 2; ++s) to[s] = p[s] + centre;
+  canonicalGridPoint(centre, to);
+}
+
 /// Codes a grid point `value` in 0..2*centre; `point`: relative to the centre. `context`: up to
 /// kNoNeighbours. [A.10.8]
 template <class Io>
@@ -233,9 +247,11 @@ template <class Io>
 class NormalCoder {
  public:
   /// `sums` is work space, 4 floats per wedge.
-  NormalCoder(const AttributeJob<Io>& job, NormalModels& models, float* sums)
+  NormalCoder(const AttributeJob<Io>& job, NormalModels& models, const WedgeMates* mates,
+              float* sums)
       : job_(job),
         models_(models),
+        mates_(job, models.mates, mates),
         weight_(static_cast<NormalWeight>(job.info.predictor & normal_method::kWeightMask)),
         blends_((job.info.predictor & normal_method::kBlend) != 0),
         centre_(octahedralCentre(job.info.bits)),
@@ -264,9 +280,11 @@ class NormalCoder {
     }
   }
   void codePoint(uint32_t w, const OctahedralFrame& frame, uint32_t context);
+  bool codeMate(uint32_t w);
 
   const AttributeJob<Io> job_;
   NormalModels& models_;
+  MateValues<Io> mates_;
   const NormalWeight weight_;
   const bool blends_;
   const int32_t centre_;
@@ -297,7 +315,9 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
     }
   }
   if (blends_) length = manhattanLength(used);
-  if (length > kShortest) [[likely]] {
+  if (codeMate(w)) {
+    job_.lengths[w] = static_cast<uint8_t>(context);
+  } else if (length > kShortest) [[likely]] {
     int32_t inside[2];
     projectToGrid(used, length, centre_, inside);
     codePoint(w, OctahedralFrame(inside, used[2] < 0, centre_), context);
@@ -310,6 +330,17 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
                      missed);
     for (int s = 0; s < 3; ++s) sum(w)[s] = missed[s] - direction[s];
   }
+}
+
+/// Whether the point is the image of a mate's; it is then in place.
+template <class Io>
+bool NormalCoder<Io>::codeMate(uint32_t w) {
+  const auto mirrored = [this](uint32_t axis, const int32_t* value, int32_t* to) {
+    mirrorGridPoint(centre_, axis, value, to);
+  };
+  if (!mates_.code(w, mirrored)) return false;
+  for (int s = 0; s < 2; ++s) last_[s] = job_.values[2 * size_t{w} + s] - centre_;
+  return true;
 }
 
 template <class Io>

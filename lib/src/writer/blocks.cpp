@@ -401,6 +401,7 @@ class BlocksEncoder {
     Variation variation(options_.variation);
     EncodeSettings options = options_;
     options.without.add(Feature::kMirrors);  // blocks have none
+    options.without.add(Feature::kMates);
     MCC_TRY(variation.active() ? varyAll(plans, variation, options.without)
                                : chooseAll(plans, options, jobs_));
     chosen_ = choicesOf(plans[0]);

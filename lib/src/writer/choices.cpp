@@ -39,6 +39,12 @@ Status surfaceCost(Plan& plan, uint64_t& cost) {
   return {};
 }
 
+std::vector<AttributeInfo> infosOf(const Plan& plan) {
+  std::vector<AttributeInfo> infos;
+  for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+  return infos;
+}
+
 using Runners = std::vector<std::unique_ptr<StageRunner>>;
 
 /// The ways to code positions that are left when mirrors are still to be chosen. The first is the
@@ -88,13 +94,29 @@ Status costWithPositions(std::vector<Plan>& plans, double& bits) {
   return {};
 }
 
+/// Lets no attribute ask for mates, which pieces without mirrors do not have.
+void forgetMates(std::vector<Plan>& plans) {
+  for (Plan& plan : plans) {
+    std::vector<AttributeInfo> infos = infosOf(plan);
+    for (uint32_t i = 1; i < infos.size(); ++i) {
+      if (asksMates(methodOf(infos, i), infos[i].predictor))
+        plan.attributes[i].info.predictor &= static_cast<uint8_t>(~kHasMates);
+    }
+  }
+}
+
 /// Settles how positions are coded: by the first choice without mirrors, or by any with them.
-Status settlePositions(std::vector<Plan>& plans, const PositionChoices& choices,
+/// `mates_bits` is what attributes gain by mates.
+Status settlePositions(std::vector<Plan>& plans, const PositionChoices& choices, double mates_bits,
                        const EncodeSettings& options) {
   setPositions(plans, choices[0], false);
   const bool any_mirrors = std::any_of(plans.begin(), plans.end(),
                                        [](const Plan& plan) { return plan.mirrors.count != 0; });
-  if (!any_mirrors || choices[0].has(position_mode::kPlanes)) return {};
+  if (!any_mirrors) return {};
+  if (choices[0].has(position_mode::kPlanes)) {
+    forgetMates(plans);
+    return {};
+  }
   double least = 0;
   MCC_TRY(costWithPositions(plans, least));
   const TimePrice price(options.prefer);
@@ -103,12 +125,13 @@ Status settlePositions(std::vector<Plan>& plans, const PositionChoices& choices,
     double bits = 0;
     setPositions(plans, choice, true);
     MCC_TRY(costWithPositions(plans, bits));
-    bits += price.surcharge(bits, price_ns::kMirrors);
+    bits += price.surcharge(bits, price_ns::kMirrors) - mates_bits;
     if (bits >= least) continue;
     least = bits;
     best = &choice;
   }
   setPositions(plans, best != nullptr ? *best : choices[0], best != nullptr);
+  if (best == nullptr) forgetMates(plans);
   return {};
 }
 
@@ -136,9 +159,10 @@ struct MethodRules {
 };
 
 /// Tries the candidates of one attribute, starting from the current models, and continues with the
-/// best. `goes_on` says that some later attribute shares its models.
+/// best. `goes_on` says that some later attribute shares its models. Adds to `mates_bits` what
+/// mates gain.
 Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner& runner,
-                             const MethodRules& rules, bool goes_on) {
+                             const MethodRules& rules, bool goes_on, double& mates_bits) {
   AttributeInfo& info = plan.attributes[index].info;
   const std::vector<AttributeInfo> alternatives = exactAlternatives(info, rules.without);
   const uint32_t count = plan.header.wedge_count;
@@ -150,13 +174,15 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner& runner,
   runner.prepareTrials();
   AttributeInfo best = info;
   uint64_t best_cost = ~uint64_t{0};
+  uint64_t best_without_mates = ~uint64_t{0};
+  FeatureSet without = rules.without;
+  if (plan.mirrors.count == 0) without.add(Feature::kMates);
   for (AttributeInfo candidate : alternatives) {
     info = candidate;
-    std::vector<AttributeInfo> infos;
-    for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+    const std::vector<AttributeInfo> infos = infosOf(plan);
     const AttributeMethod method = methodOf(infos, index);
     if (isWithAnother(method)) return {};
-    PredictorSearch search(method, plan.header.has(piece_flag::kSeams), rules.without);
+    PredictorSearch search(method, plan.header.has(piece_flag::kSeams), without);
     if (alternatives.size() == 1 && search.isSettled()) {
       best.predictor = search.best();
       break;
@@ -169,19 +195,26 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner& runner,
       cost += static_cast<uint64_t>(
           rules.price.surcharge(tried * rules.wedge_share, timeOf(method, info.predictor)));
       search.report(cost);
+      if (!asksMates(method, info.predictor))
+        best_without_mates = std::min(best_without_mates, cost);
       if (cost >= best_cost) continue;
       best_cost = cost;
       best = candidate;
     }
   }
   info = best;
+  if (best_cost < best_without_mates && best_without_mates != ~uint64_t{0}) {
+    const double tried = std::min(sample, count);
+    mates_bits += static_cast<double>(best_without_mates - best_cost) / kCostOne * count / tried;
+  }
   return goes_on ? runner.codeAttribute(index, nullptr) : runner.passAttribute(index);
 }
 
 /// Chooses creases and the methods of all attributes but positions; they do not depend on how
-/// positions are coded. `io` has counted the surfaces, and the positions are recorded.
+/// positions are coded, except for mirrors. `io` has counted the surfaces, and the positions are
+/// recorded. `mates_bits` receives what mates gain.
 Status chooseMethods(std::vector<Plan>& plans, Runners& runners, const EncoderIo& io,
-                     const EncodeSettings& options) {
+                     const EncodeSettings& options, double& mates_bits) {
   const bool only_positions = std::all_of(plans.begin(), plans.end(), [](const Plan& plan) {
     return plan.attributes.size() == 1 && !plan.header.has(piece_flag::kSeams);
   });
@@ -194,6 +227,7 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, const EncoderIo
   }
   const MethodRules rules{expected_cost / wedges, TimePrice(options.prefer), options.without};
   for (size_t i = 0; i < plans.size(); ++i) {
+    runners[i]->guessMates();
     const bool without_creases = options.without.has(Feature::kCreases);
     MCC_TRY(without_creases ? runners[i]->codeSeams(nullptr) : runners[i]->chooseSeams());
     MCC_TRY(runners[i]->prepareAttributes());
@@ -204,7 +238,7 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, const EncoderIo
         goes_on |= plans[i].attributes[order[later]].info.format.semantic ==
                    plans[i].attributes[order[k]].info.format.semantic;
       }
-      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], rules, goes_on));
+      MCC_TRY(chooseAttributeMethod(plans[i], order[k], *runners[i], rules, goes_on, mates_bits));
     }
   }
   return {};
@@ -213,8 +247,7 @@ Status chooseMethods(std::vector<Plan>& plans, Runners& runners, const EncoderIo
 /// Chooses at random, instead of chooseAttributeMethod().
 void varyAttributeMethod(Plan& plan, uint32_t index, Variation& variation,
                          const FeatureSet& without) {
-  std::vector<AttributeInfo> infos;
-  for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+  std::vector<AttributeInfo> infos = infosOf(plan);
   infos[index] = variation.oneOf(exactAlternatives(infos[index], {}));
   variation.predictors(infos, index, without);
   for (size_t i = 0; i < infos.size(); ++i) plan.attributes[i].info = infos[i];
@@ -268,12 +301,13 @@ Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const 
     recorded[i].has_mirrors = plans[i].mirrors.count != 0;
   }
   PositionChoices choices;
+  double mates_bits = 0;
   MCC_TRY(jobs.tryAll(2, [&](size_t i) -> Status {
-    if (i == 1) return chooseMethods(plans, runners, io, options);
+    if (i == 1) return chooseMethods(plans, runners, io, options, mates_bits);
     choices = choosePositions(std::move(recorded), surface_bits, options, jobs);
     return {};
   }));
-  return settlePositions(plans, choices, options);
+  return settlePositions(plans, choices, mates_bits, options);
 }
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include "base/enc_exceptions.h"
 #include "format/predictors.h"
+#include "positions/enc_mirrors.h"
 #include "positions/enc_recording.h"
 #include "writer/instances.h"
 #include "writer/truth.h"
@@ -98,6 +99,14 @@ Status StageRunner::recordPositions(RecordedPositions& recorded) {
   findPlanesOf(plan_, positions);
   if (*plan_.has_planes) candidate.planes = plan_.planes;
   return {};
+}
+
+void StageRunner::guessMates() {
+  if (plan_.mirrors.count == 0 || plan_.attributes.size() < 2) return;
+  std::vector<uint32_t> order;
+  for (size_t i = 0; i < piece_->groups.count; ++i)
+    order.push_back(piece_->mesh.words[piece_->sequence[i]]);
+  mcc::guessMates(plan_.positions, order, plan_.mirrors, piece_->mates);
 }
 
 Status StageRunner::codePositions(StreamSizes* sizes) {

@@ -59,6 +59,10 @@ class StageRunner {
   /// after codePositions() need of it.
   Status recordPositions(RecordedPositions& recorded);
 
+  /// For trials of attributes: guesses the mates of the vertices under the plan's mirrors.
+  /// recordPositions() must have run, and codeSeams() not yet.
+  void guessMates();
+
   Status codePositions(StreamSizes* sizes);
   Status codeSeams(StreamSizes* sizes);
   Status codeOrders(StreamSizes* sizes);

@@ -90,10 +90,10 @@ class Variation {
       info.predictor = static_cast<uint8_t>(below(256));
     } while (!isValidPredictor(method, info.predictor) ||
              minorVersionOf(method, info.predictor) != 0);
-    Variation beside(~state_);
+    Variation later = apart();
     for (const PredictorField& field : infoOf(method)) {
       if (field.since == 0 || without.has(field.feature)) continue;
-      info.predictor = field.with(info.predictor, beside.below(field.value_count));
+      info.predictor = field.with(info.predictor, later.below(field.value_count));
     }
   }
 

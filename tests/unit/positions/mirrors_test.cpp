@@ -36,7 +36,8 @@ class Mates {
       : points_(points),
         words_(kFaceWords * faces.size(), kNone),
         records_(points.size()),
-        mates_(FaceView{words_.data()}, records_.data(), mirrors, Allocator{}) {
+        vertex_mates_(Allocator{}),
+        mates_(FaceView{words_.data()}, records_.data(), mirrors, vertex_mates_, Allocator{}) {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> half_edges;
     for (uint32_t f = 0; f < faces.size(); ++f) {
       for (uint32_t k = 0; k < 3; ++k) {
@@ -89,6 +90,7 @@ class Mates {
   std::vector<uint32_t> words_;
   std::vector<VertexRecord> records_;
   std::map<uint32_t, uint32_t> start_;
+  VertexMates vertex_mates_;
   MirrorMates mates_;
 };
 
