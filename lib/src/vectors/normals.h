@@ -339,7 +339,7 @@ bool NormalCoder<Io>::codeMate(uint32_t w) {
     mirrorGridPoint(centre_, axis, value, to);
   };
   if (!mates_.code(w, mirrored)) return false;
-  for (int s = 0; s < 2; ++s) last_[s] = job_.values[2 * size_t{w} + s] - centre_;
+  for (uint32_t s = 0; s < 2; ++s) last_[s] = job_.values[2 * size_t{w} + s] - centre_;
   return true;
 }
 
