@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Codes the positions of a piece with mirrors: as positions/positions.h does, but first says of
-// each vertex whether it is the image of one that is known. [A.6.14]
+// each vertex whether it is the image of one that is known. Compact code has only this coder, for
+// pieces without mirrors, too. [A.6.14]
 #ifndef MCC_POSITIONS_MIRRORED_H_
 #define MCC_POSITIONS_MIRRORED_H_
 
@@ -15,7 +16,8 @@ namespace mcc {
 template <class Io>
 class MirroredPositionCoder {
  public:
-  MirroredPositionCoder(Io& io, PositionModels& models, MirrorModels& mirror_models,
+  /// `mirror_models` is null in pieces without mirrors.
+  MirroredPositionCoder(Io& io, PositionModels& models, MirrorModels* mirror_models,
                         const PositionParameters& parameters, const Mirrors& mirrors,
                         VertexMates& mates, FaceMesh& mesh, const GroupPositions& vertices)
       : io_(io),
@@ -30,41 +32,46 @@ class MirroredPositionCoder {
         mates_(growth_.faces(), vertices.records, mirrors, mates, mesh.allocator()) {}
 
   Status run(uint32_t* order) {
-    if (!mates_.init(vertex_count_)) return fail(Error::kOutOfMemory, "no memory for the mirrors");
+    if (hasMirrors() && !mates_.init(vertex_count_))
+      return fail(Error::kOutOfMemory, "no memory for the mirrors");
     MCC_TRY(growth_.run(*this, order));
     return check();
   }
 
   // --- visitor of RegionGrowth ---
 
-  /// Nothing is gained from an inner loop: plain() codes all plain fans.
+  /// Nothing is gained from an inner loop on copies: plain() codes all plain fans.
   struct Plain {
-    explicit Plain(MirroredPositionCoder&) {}
-    bool visit(uint32_t, const PlainFan&) const { return false; }
+    explicit Plain(MirroredPositionCoder& all) : coder(all) {}
+    MCC_INLINE bool visit(uint32_t v, const PlainFan& fan) const {
+      if (kCompact) coder.plain(v, fan);
+      return kCompact;
+    }
     void close(MirroredPositionCoder&) const {}
     void reopen(MirroredPositionCoder&) const {}
+    MirroredPositionCoder& coder;
   };
   void plain(uint32_t v, const PlainFan& fan) {
     Prediction prediction;
     vertex_.predict(v, growth_.faces(), fan, prediction);
     const VertexRecord* const around[3] = {fan.n1, fan.n0, fan.n2};
-    code(v, prediction, around, 1);
-    mates_.add(v, prevHalfEdge(growth_.faces().twin(fan.beyond0)));
+    if (!codeImage(v, prediction, around)) vertex_.codePredicted(io_, v, fan, prediction);
+    add(v, prevHalfEdge(growth_.faces().twin(fan.beyond0)));
   }
   void fan(uint32_t v, const AnyFan& fan) {
     Prediction prediction;
     predictAny(parameters_, fan, prediction);
     const uint32_t last = fan.neighbour_count - 1;
     const VertexRecord* const around[3] = {fan.n[(last + 1) / 2], fan.n[0], fan.n[last]};
-    code(v, prediction, around, 0);
-    mates_.add(v, fan.first);
+    if (!codeImage(v, prediction, around)) vertex_.codePredicted(io_, v, fan, prediction);
+    add(v, fan.first);
   }
   void seed(uint32_t v, const VertexRecord* neighbour, uint32_t half_edge) {
     Lanes<uint32_t> from{};
     if (neighbour != nullptr) from = coordinates(neighbour);
-    mates_.findCandidates({&neighbour, neighbour != nullptr ? 1u : 0u}, from);
-    if (!codeImage(v, from, kNoShear)) vertex_.codeSeed(io_, v, neighbour);
-    mates_.add(v, half_edge);
+    const std::span around(&neighbour, neighbour != nullptr ? 1u : 0u);
+    if (!codeImage(v, from, around, nullptr)) vertex_.codeSeed(io_, v, neighbour);
+    add(v, half_edge);
   }
   Status check() const {
     if (names_none_) return fail(Error::kBadAttribute, "a vertex is the image of none");
@@ -73,22 +80,29 @@ class MirroredPositionCoder {
   }
 
  private:
-  void code(uint32_t v, const Prediction& prediction,
-            std::span<const VertexRecord* const> neighbours, uint32_t is_plain) {
+  using Neighbours = std::span<const VertexRecord* const>;
+
+  bool hasMirrors() const { return !kCompact || models_ != nullptr; }
+  void add(uint32_t v, uint32_t half_edge) {
+    if (hasMirrors()) mates_.add(v, half_edge);
+  }
+  bool codeImage(uint32_t v, const Prediction& prediction, Neighbours neighbours) {
+    if (!hasMirrors()) return false;
     const FinePoint& at = prediction.at;
     const Lanes<uint32_t> from =
         at.step + lanesAs<uint32_t>(lanesAs<int32_t>(at.fraction + 128) >> 8);
-    mates_.findCandidates(neighbours, from);
-    const bool shears = parameters_.has(position_mode::kShear);
-    if (codeImage(v, from, shears ? makeShear(prediction.normal) : kNoShear)) return;
-    vertex_.codeVertex(io_, v, prediction, is_plain);
+    return codeImage(v, from, neighbours, &prediction);
   }
 
-  /// Returns whether the vertex is the image of a candidate; then it is coded.
-  bool codeImage(uint32_t v, const Lanes<uint32_t>& from, const Shear& shear) {
+  /// Returns whether the vertex is the image of a candidate; then it is coded. Seeds have no
+  /// prediction.
+  MCC_OUT_OF_LINE bool codeImage(uint32_t v, const Lanes<uint32_t>& from, Neighbours neighbours,
+                                 const Prediction* prediction) {
+    if (!hasMirrors()) return false;
+    mates_.findCandidates(neighbours, from);
     if (mates_.count() == 0) return false;
     uint32_t choice = Io::kEncoding ? choose(v, from) : 0;
-    choice = io_.template token<0>(models_.candidate[mates_.context()], kPositionSchedule, choice);
+    choice = io_.template token<0>(models_->candidate[mates_.context()], kPositionSchedule, choice);
     if (choice == 0) return false;
     const bool is_near = choice >= kNearCandidate;
     const uint32_t candidate = choice - (is_near ? kNearCandidate : 1);
@@ -99,7 +113,8 @@ class MirroredPositionCoder {
     mates_.name(candidate);
     Lanes<uint32_t> q = mates_.imageOf(candidate);
     if (is_near) q += residualFrom(v, q);
-    vertex_.storeAt(v, q, from, shear.axis);
+    const bool shears = prediction != nullptr && parameters_.has(position_mode::kShear);
+    vertex_.storeAt(v, q, from, (shears ? makeShear(prediction->normal) : kNoShear).axis);
     return true;
   }
   Lanes<uint32_t> residualFrom(uint32_t v, const Lanes<uint32_t>& image) {
@@ -107,7 +122,7 @@ class MirroredPositionCoder {
       constexpr uint32_t kState = kCompact ? 0 : decltype(state)::value;
       const int32_t truth = Io::kEncoding ? static_cast<int32_t>(truthOf(v)[s] - image[s]) : 0;
       return static_cast<uint32_t>(
-          codeResidual<kState>(io_, models_.residual[s], 0, 0, 0, truth, std::false_type{}));
+          codeResidual<kState>(io_, models_->residual[s], 0, 0, 0, truth, std::false_type{}));
     };
     const uint32_t x = code(std::integral_constant<uint32_t, 0>{}, 0);
     const uint32_t y = code(std::integral_constant<uint32_t, 1>{}, 1);
@@ -143,7 +158,7 @@ class MirroredPositionCoder {
   }
 
   Io& io_;
-  MirrorModels& models_;
+  MirrorModels* const models_;
   const PositionParameters& parameters_;
   const int32_t* const truth_;
   VertexRecord* const records_;

@@ -116,7 +116,7 @@ class MirrorMates {
 
   /// Finds the mates of a vertex whose position has become known. `start` is a half-edge that
   /// leaves it. findCandidates() must have been called for it.
-  void add(uint32_t vertex, uint32_t start) {
+  MCC_OUT_OF_LINE void add(uint32_t vertex, uint32_t start) {
     startOf(vertex) = start;
     const Lanes<uint32_t> q = coordinates(&records_[vertex]);
     for (uint32_t m = 0; m < count_; ++m) {

@@ -60,13 +60,22 @@ class VertexCoder {
   MCC_INLINE void codePlain(Io& io, uint32_t v, const PlainFan& fan, const Beyond* beyond,
                             Prediction& prediction) const {
     predictPlain(p_, fan, beyond, records_[v].degree(), modes(), prediction);
+    codePredicted(io, v, fan, prediction);
+  }
+  void codeAny(Io& io, uint32_t v, const AnyFan& fan, Prediction& prediction) const {
+    predictAny(p_, fan, prediction);
+    codePredicted(io, v, fan, prediction);
+  }
+  /// Codes a vertex that has been predicted from its fan.
+  MCC_INLINE void codePredicted(Io& io, uint32_t v, const PlainFan& fan,
+                                const Prediction& prediction) const {
     if (has(position_mode::kPlanes)) {
       return codeOnPlanes(io, v, prediction, axesAround(fan.n0, fan.n1, fan.n2));
     }
     codeVertex(io, v, prediction, 1);
   }
-  void codeAny(Io& io, uint32_t v, const AnyFan& fan, Prediction& prediction) const {
-    predictAny(p_, fan, prediction);
+  MCC_INLINE void codePredicted(Io& io, uint32_t v, const AnyFan& fan,
+                                const Prediction& prediction) const {
     if (has(position_mode::kPlanes)) {
       const uint32_t last = fan.neighbour_count - 1;
       return codeOnPlanes(io, v, prediction,
