@@ -22,7 +22,8 @@ class WedgeMates {
     wedges_ = &wedges;
     mates_ = &mates;
     if (!wedges.hasSeams()) return {};
-    if (!first_.resize(vertex_count)) return fail(Error::kOutOfMemory, "no memory for attributes");
+    if (!first_.assign(vertex_count, kNone))
+      return fail(Error::kOutOfMemory, "no memory for attributes");
     for (uint32_t w = wedges.surface_count; w-- != 0;) first_[wedges.vertexOf(w)] = w;
     return {};
   }
@@ -42,7 +43,7 @@ class WedgeMates {
       const uint32_t mate = mates_->mateOf(m, vertex);
       if (mate == kNone || mate == vertex) continue;
       uint32_t other = wedges_->hasSeams() ? first_[mate] : mate;
-      for (uint32_t i = 0; i < kMostWedges; ++i, ++other) {
+      for (uint32_t i = 0; i < kMostWedges && other < wedges_->surface_count; ++i, ++other) {
         if (!visit(mates_->axis[m], other)) return;
         if (!wedges_->continuesVertex(other + 1)) break;
       }
