@@ -119,7 +119,7 @@ class MirroredPositionCoder {
   }
   Lanes<uint32_t> residualFrom(uint32_t v, const Lanes<uint32_t>& image) {
     const auto code = [&](auto state, uint32_t s) {
-      constexpr uint32_t kState = kCompact ? 0 : decltype(state)::value;
+      constexpr uint32_t kState = decltype(state)::value;
       const int32_t truth = Io::kEncoding ? static_cast<int32_t>(truthOf(v)[s] - image[s]) : 0;
       return static_cast<uint32_t>(
           codeResidual<kState>(io_, models_->residual[s], 0, 0, 0, truth, std::false_type{}));
