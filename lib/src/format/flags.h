@@ -46,7 +46,9 @@ inline constexpr uint32_t kVertexOrder = 1u << 11;
 inline constexpr uint32_t kMirrors = 1u << 12;  ///< of minor version 1
 inline constexpr uint32_t kAll = 0x1fff;
 /// The flags of pieces that this decoder knows.
-inline constexpr uint32_t kDecoded = kAll & ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder);
+inline constexpr uint32_t kDecoded = kAll &
+                                     ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder) &
+                                     ~(decodes::kMirrors ? 0 : kMirrors);
 }  // namespace piece_flag
 
 struct PieceFlagInfo {

@@ -146,7 +146,7 @@ inline constexpr PredictorField kTangentRepeats = {
 
 /// It is the last: what it gains is compared with all others.
 inline constexpr PredictorField kMates = {
-    kHasMates, 2, Feature::kMates, {{"", "", 0}, {"mates", "A.10.20", 5}}, true, 1};
+    kHasMates, 2, Feature::kMates, {{"", "", 0}, {"mates", "A.10.20", 5}}, decodes::kMirrors, 1};
 
 /// A mode of positions.
 constexpr PredictorField modeField(uint8_t mask, Feature feature, const char* word,
