@@ -78,7 +78,8 @@ function checkPrimitive(where, glb, primitive, sourcePosition, tolerance) {
     expect(components === componentCounts[accessor.type], `${where}: ${name}: type`);
     if (accessor.min === undefined) continue;
     const bounds = boundsOf(decoder, mesh, attribute);
-    const { min, max } = accessor;
+    // As glTF tells readers in JavaScript to do.
+    const [min, max] = [accessor.min, accessor.max].map((bound) => bound.map(Math.fround));
     expect(JSON.stringify(bounds) === JSON.stringify({ min, max }),
            `${where}: ${name}: bounds ${JSON.stringify(bounds)}`);
     if (name !== 'POSITION') continue;
