@@ -160,6 +160,14 @@ void addMirrors(PayloadList& list) {
   }
   // Three streams.
   list.add(mirrored(halfSheet(50, 40, 3), 0));
+  // Normals and texture coordinates of mates, one and several on a vertex.
+  list.add(withNormals(mirrored(mirrored(halfSheet(6, 5, 4), 0), 1)));
+  for (uint64_t variation = 1; variation <= 6; ++variation) {
+    EncodeSettings settings;
+    settings.variation = variation;
+    list.add(withRandomWedges(withNormals(mirrored(halfSheet(6, 5, 5), 0)), variation, 5),
+             {10, 4, 6}, settings);
+  }
 }
 
 std::vector<NamedPayload> makePayloads() {

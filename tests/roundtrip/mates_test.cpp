@@ -54,10 +54,10 @@ bool asksMates(const EncodeResult& result) {
 }
 
 std::vector<double> attributeBits(const PieceView& view, bool with_mates) {
-  EncodeSettings settings;
-  settings.without.add(Feature::kMemory);  // which finds the same charts by their triangles
-  if (!with_mates) settings.without.add(Feature::kMates);
-  const RoundTrip result = roundTrip(view, settings);
+  // The memory would find the same charts by their triangles.
+  const EncodeSettings with = without({Feature::kMemory});
+  const RoundTrip result =
+      roundTrip(view, with_mates ? with : without({Feature::kMemory, Feature::kMates}));
   EXPECT_EQ(result.failure, "");
   EXPECT_EQ(asksMates(result.encoded), with_mates);
   return result.encoded.sizes.attribute_bits;

@@ -33,9 +33,8 @@ bool hasMirrors(const EncodeResult& result) {
 }
 
 double positionBits(const PieceView& view, bool with_mirrors) {
-  EncodeSettings settings;
-  if (!with_mirrors) settings.without.add(Feature::kMirrors);
-  const RoundTrip result = roundTrip(view, settings);
+  const RoundTrip result =
+      roundTrip(view, with_mirrors ? EncodeSettings{} : without({Feature::kMirrors}));
   EXPECT_EQ(result.failure, "");
   EXPECT_EQ(hasMirrors(result.encoded), with_mirrors);
   return result.encoded.sizes.position_bits;

@@ -7,6 +7,7 @@
 #define MCC_TESTS_SUPPORT_MESH_COMPARE_H_
 
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -79,6 +80,13 @@ RoundTrip roundTrip(std::span<const PieceView> pieces, const EncodeSettings& set
                     const TargetLayout& layout = {});
 RoundTrip roundTrip(const PieceView& piece, const EncodeSettings& settings = {},
                     const TargetLayout& layout = {});
+
+/// Settings without some of the encoder's choices.
+inline EncodeSettings without(std::initializer_list<Feature> features) {
+  EncodeSettings settings;
+  for (const Feature feature : features) settings.without.add(feature);
+  return settings;
+}
 
 /// Bits of the float attributes of a MeshPiece; 0 is exact.
 struct MeshBits {

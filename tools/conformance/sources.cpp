@@ -1308,6 +1308,25 @@ Source repeatsInPieces() {
   return source;
 }
 
+/// All these sources as version 1.1 has them, and with choices at random, once for each variation.
+std::vector<Source> variedOfVersion11(std::vector<Source> all, uint64_t variations,
+                                      const std::string& name, const std::string& shows) {
+  for (size_t i = 0, plain = all.size(); i < plain; ++i) {
+    for (uint64_t variation = 1; variation <= variations; ++variation) {
+      Source source = all[i];
+      source.name += "_" + std::to_string(variation);
+      source.options.variation = 10 * i + variation;
+      all.push_back(std::move(source));
+    }
+  }
+  for (Source& source : all) {
+    source.name = name + source.name;
+    source.shows = shows + source.shows;
+    source.options.without = {};
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<Source> mirroredSources() {
@@ -1319,40 +1338,13 @@ std::vector<Source> mirroredSources() {
   all.push_back(single("floats", "Exact floats with mirrors", mirrored(halfSheet(6, 5, 3), 0),
                        [](SourceBuilder& b) { b.positions(0, Floats::kAny); }));
   // Any mirrors, with any way to code positions: palettes with images, shear, weights.
-  const size_t plain = all.size();
-  for (size_t i = 0; i < plain; ++i) {
-    for (uint64_t variation = 1; variation <= 2; ++variation) {
-      Source source = all[i];
-      source.name += "_" + std::to_string(variation);
-      source.options.variation = 10 * i + variation;
-      all.push_back(std::move(source));
-    }
-  }
-  for (Source& source : all) {
-    source.name = "mirrors_" + source.name;
-    source.shows = "Mirrors: " + source.shows;
-    source.options.without = {};
-  }
-  return all;
+  return variedOfVersion11(std::move(all), 2, "mirrors_", "Mirrors: ");
 }
 
 std::vector<Source> matesSources() {
   std::vector<Source> all;
   matesOfSurfaces(all);
-  for (size_t i = 0, plain = all.size(); i < plain; ++i) {
-    for (uint64_t variation = 1; variation <= 3; ++variation) {
-      Source source = all[i];
-      source.name += "_" + std::to_string(variation);
-      source.options.variation = 10 * i + variation;
-      all.push_back(std::move(source));
-    }
-  }
-  for (Source& source : all) {
-    source.name = "mates_" + source.name;
-    source.shows = "Values of mates: " + source.shows;
-    source.options.without = {};
-  }
-  return all;
+  return variedOfVersion11(std::move(all), 3, "mates_", "Values of mates: ");
 }
 
 std::vector<Source> tangentSources() {

@@ -264,7 +264,7 @@ Status parsePiece(ByteReader& in, const Limits& limits, PayloadHeader& header, T
   PieceHeader piece;
   const size_t at = in.offset();
   MCC_TRY(in.readVarint(piece.flags));
-  const uint32_t reserved = header.version_minor == 0 ? piece_flag::kMirrors : 0;
+  const uint32_t reserved = header.version_minor == 0 ? piece_flag::kSinceMinor1 : 0;
   if ((piece.flags & (~piece_flag::kAll | reserved)) != 0)
     return fail(Error::kBadHeader, "reserved bits are set", at);
   if (piece.has(piece_flag::kCreases) && !piece.has(piece_flag::kSeams))

@@ -43,8 +43,9 @@ inline constexpr uint32_t kSurfaceMask = 3u << kSurfaceShift;  ///< SurfaceCodin
 inline constexpr uint32_t kListed = 1u << 9;
 inline constexpr uint32_t kTriangleOrder = 1u << 10;
 inline constexpr uint32_t kVertexOrder = 1u << 11;
-inline constexpr uint32_t kMirrors = 1u << 12;  ///< of minor version 1
+inline constexpr uint32_t kMirrors = 1u << 12;
 inline constexpr uint32_t kAll = 0x1fff;
+inline constexpr uint32_t kSinceMinor1 = kMirrors;  ///< what minor version 1 added
 /// The flags of pieces that this decoder knows.
 inline constexpr uint32_t kDecoded = kAll &
                                      ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder) &

@@ -144,7 +144,7 @@ inline constexpr PredictorField kTangentRepeats = {
     tangent_method::kRepeats, 2, Feature::kTangentRepeats, {{"", "", 0}, {"repeats", "A.10.19", 5}},
     decodes::kTangentRepeats, 1};
 
-/// It is the last: what it gains is compared with all others.
+/// It is the last, so that what it gains is over the best of all other fields.
 inline constexpr PredictorField kMates = {
     kHasMates, 2, Feature::kMates, {{"", "", 0}, {"mates", "A.10.20", 5}}, decodes::kMirrors, 1};
 
@@ -288,8 +288,10 @@ constexpr bool isValidPredictor(AttributeMethod method, uint8_t predictor) {
 }
 
 constexpr bool asksMates(AttributeMethod method, uint8_t predictor) {
-  const bool may_ask = method == AttributeMethod::kNormal || method == AttributeMethod::kTexcoord;
-  return may_ask && (predictor & kHasMates) != 0;
+  for (const PredictorField& field : infoOf(method)) {
+    if (field.feature == Feature::kMates) return field.valueOf(predictor) != 0;
+  }
+  return false;
 }
 
 /// The minor version of the format that has everything a byte asks for.

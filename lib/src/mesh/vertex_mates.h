@@ -25,7 +25,7 @@ struct VertexMates {
 
   uint32_t mirror_count = 0;  ///< 0 without mirrors
   uint32_t axis[kMaxMirrors] = {};
-  /// Of each vertex a half-edge that leaves it, and its mates under each mirror.
+  /// Each vertex has 1 + mirror_count words: a half-edge that leaves it, then its mates.
   Array<uint32_t> states;
 
  private:

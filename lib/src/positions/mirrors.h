@@ -6,8 +6,8 @@
 //                   |                 The vertices around u0 that have no mate yet are candidates:
 //                mirror               the image of one of them is probably the vertex to be coded.
 //
-// Two vertices are mates under a mirror if each is about where the other's image is. Nothing is
-// assumed of the triangles: they need not be mirrored.
+// Two vertices are mates under a mirror if one was named as the image of the other, or is exactly
+// there. Nothing is assumed of the triangles: they need not be mirrored.
 #ifndef MCC_POSITIONS_MIRRORS_H_
 #define MCC_POSITIONS_MIRRORS_H_
 
@@ -159,6 +159,8 @@ class MirrorMates {
     return (q[0] * 0x9e3779b1u + q[1] * 0x85ebca77u + q[2] * 0xc2b2ae3du) >> shift_;
   }
 
+  /// Returns the mate of a vertex at q: itself if it is on the mirror, else the candidate that was
+  /// named, however far its image is, else a vertex exactly at the image.
   uint32_t findMate(uint32_t m, uint32_t vertex, const Lanes<uint32_t>& q) {
     const Lanes<uint32_t> opposite = image(q, m);
     if (isNear(q, opposite)) return vertex;

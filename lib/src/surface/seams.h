@@ -225,8 +225,8 @@ bool SeamCoder<Io>::codeHasSeam() {
 }
 
 /// Codes bits for the edges 1 .. n-1 between the fan faces i-1 and i, then for the closing edge 0.
-/// Lists the runs that begin behind them: run_begins_[0] is fan face 0, which begins a run of an
-/// open fan, or if the closing edge has a seam end; else the last run reaches over it. [A.7.2]
+/// Each edge with a seam end begins a run, which is listed. Fan face 0 also begins one in an open
+/// fan; in a closed fan whose closing edge has no seam end, the last run reaches over it. [A.7.2]
 template <class Io>
 void SeamCoder<Io>::codeSeamEnds() {
   const uint32_t n = fan_count_;

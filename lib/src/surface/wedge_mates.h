@@ -27,10 +27,6 @@ class WedgeMates {
     for (uint32_t w = wedges.surface_count; w-- != 0;) first_[wedges.vertexOf(w)] = w;
     return {};
   }
-  void clear() {
-    mates_ = nullptr;
-    first_.reset();
-  }
   bool empty() const { return mates_ == nullptr; }
 
   /// Calls visit(axis, other) for the wedges of the vertices that are mates of w's across an axis,

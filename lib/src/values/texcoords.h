@@ -54,7 +54,8 @@ inline float coordinateDifference(int32_t a, int32_t b) {
 template <class Io>
 class TexcoordCoder {
  public:
-  /// `memory` has been started with the values; it is null if the predictor remembers nothing.
+  /// `mates` and `memory`, which has been started with the values, are null if the predictor does
+  /// not ask for them.
   TexcoordCoder(const AttributeJob<Io>& job, TexcoordModels& models, const WedgeMates* mates,
                 TexcoordMemory* memory)
       : job_(job),

@@ -246,7 +246,8 @@ MCC_INLINE void codeGridPoint(Io& io, TokenRow (&rows)[2][kLengthContexts],
 template <class Io>
 class NormalCoder {
  public:
-  /// `sums` is work space, 4 floats per wedge.
+  /// `mates` is null if the predictor does not ask for them. `sums` is work space, 4 floats per
+  /// wedge.
   NormalCoder(const AttributeJob<Io>& job, NormalModels& models, const WedgeMates* mates,
               float* sums)
       : job_(job),

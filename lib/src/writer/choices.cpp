@@ -39,27 +39,23 @@ Status surfaceCost(Plan& plan, uint64_t& cost) {
   return {};
 }
 
-std::vector<AttributeInfo> infosOf(const Plan& plan) {
-  std::vector<AttributeInfo> infos;
-  for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
-  return infos;
-}
-
 using Runners = std::vector<std::unique_ptr<StageRunner>>;
+
+bool anyMirrors(const std::vector<Plan>& plans) {
+  return std::any_of(plans.begin(), plans.end(),
+                     [](const Plan& plan) { return plan.mirrors.count != 0; });
+}
 
 /// The ways to code positions that are left when mirrors are still to be chosen. The first is the
 /// best without mirrors.
 using PositionChoices = std::vector<PositionParameters>;
 
 /// Chooses once for all pieces, since they share tables and models. Consumes the recordings.
-PositionChoices choosePositions(std::vector<RecordedPositions> recorded, double surface_bits,
-                                const EncodeSettings& options, const Jobs& jobs) {
+PositionChoices choosePositions(std::vector<RecordedPositions> recorded, bool any_mirrors,
+                                double surface_bits, const EncodeSettings& options,
+                                const Jobs& jobs) {
   std::vector<PositionCandidate> candidates;
-  bool any_mirrors = false;
-  for (const RecordedPositions& piece : recorded) {
-    candidates.push_back(piece.candidate);
-    any_mirrors |= piece.has_mirrors;
-  }
+  for (const RecordedPositions& piece : recorded) candidates.push_back(piece.candidate);
   PositionSettings settings{options.prefer, options.without};
   PositionChoices choices = {choosePositionParameters(candidates, surface_bits, settings, jobs)};
   // A palette of all coordinates is dear when mirrors save half of them.
@@ -110,9 +106,7 @@ void forgetMates(std::vector<Plan>& plans) {
 Status settlePositions(std::vector<Plan>& plans, const PositionChoices& choices, double mates_bits,
                        const EncodeSettings& options) {
   setPositions(plans, choices[0], false);
-  const bool any_mirrors = std::any_of(plans.begin(), plans.end(),
-                                       [](const Plan& plan) { return plan.mirrors.count != 0; });
-  if (!any_mirrors) return {};
+  if (!anyMirrors(plans)) return {};
   if (choices[0].has(position_mode::kPlanes)) {
     forgetMates(plans);
     return {};
@@ -203,7 +197,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner& runner,
     }
   }
   info = best;
-  if (best_cost < best_without_mates && best_without_mates != ~uint64_t{0}) {
+  if (best_cost < best_without_mates) {  // the search begins without mates
     const double tried = std::min(sample, count);
     mates_bits += static_cast<double>(best_without_mates - best_cost) / kCostOne * count / tried;
   }
@@ -296,15 +290,14 @@ Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const 
   std::vector<RecordedPositions> recorded(plans.size());
   MCC_TRY(jobs.tryAll(plans.size(),
                       [&](size_t i) { return runners[i]->recordPositions(recorded[i]); }));
-  for (size_t i = 0; i < plans.size() && !options.without.has(Feature::kMirrors); ++i) {
+  for (size_t i = 0; i < plans.size() && !options.without.has(Feature::kMirrors); ++i)
     plans[i].mirrors = findMirrors(plans[i].positions, sumBits(recorded[i].candidate.bits));
-    recorded[i].has_mirrors = plans[i].mirrors.count != 0;
-  }
   PositionChoices choices;
   double mates_bits = 0;
   MCC_TRY(jobs.tryAll(2, [&](size_t i) -> Status {
     if (i == 1) return chooseMethods(plans, runners, io, options, mates_bits);
-    choices = choosePositions(std::move(recorded), surface_bits, options, jobs);
+    const bool any = anyMirrors(plans);
+    choices = choosePositions(std::move(recorded), any, surface_bits, options, jobs);
     return {};
   }));
   return settlePositions(plans, choices, mates_bits, options);

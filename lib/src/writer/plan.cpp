@@ -91,8 +91,7 @@ Status checkPiece(const PieceView& piece) {
 
 /// Joints are coded by golomb(), whose largest value is 2^32 - 2. [A.3.5]
 Status checkJoints(const Plan& plan) {
-  std::vector<AttributeInfo> infos;
-  for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+  const std::vector<AttributeInfo> infos = infosOf(plan);
   for (uint32_t i = 0; i < infos.size(); ++i) {
     if (methodOf(infos, i) != AttributeMethod::kSkin) continue;
     const std::vector<int32_t>& joints = plan.attributes[i].values;
@@ -245,6 +244,12 @@ void findPlanesOf(Plan& plan, std::span<const int32_t> positions) {
   plan.has_planes = info.coding == AttributeCoding::kLattice &&
                     info.bits <= position_mode::kMaxBitsOfPlanes &&
                     findPlanes(positions, plan.planes);
+}
+
+std::vector<AttributeInfo> infosOf(const Plan& plan) {
+  std::vector<AttributeInfo> infos;
+  for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
+  return infos;
 }
 
 void describePiece(Plan& plan, const EncodeOptions& options) {

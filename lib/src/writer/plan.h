@@ -67,6 +67,9 @@ inline int32_t codedPosition(const AttributeInfo& info, int32_t value) {
   return info.coding == AttributeCoding::kGrid ? gridInteger(info, value) : value;
 }
 
+/// Returns the headers of all attributes.
+std::vector<AttributeInfo> infosOf(const Plan& plan);
+
 /// Sets the fields of the header that follow from attributes, classes and triangles.
 void describePiece(Plan& plan, const EncodeOptions& options);
 

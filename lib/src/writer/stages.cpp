@@ -26,12 +26,6 @@ void StageModels::copyFrom(const StageModels& other) {
 
 namespace {
 
-std::vector<AttributeInfo> infosOf(const Plan& plan) {
-  std::vector<AttributeInfo> infos;
-  for (const QuantizedAttribute& a : plan.attributes) infos.push_back(a.info);
-  return infos;
-}
-
 /// What coding the seams changes.
 struct Surface {
   Array<uint32_t> words;

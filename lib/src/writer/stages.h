@@ -42,7 +42,6 @@ struct RecordedPositions {
   Array<VertexRecord> records;
   std::shared_ptr<PositionRecording> recording;
   PositionCandidate candidate;  ///< refers to the recording
-  bool has_mirrors = false;     ///< the plan has some
 };
 
 /// Runs every stage of one piece. `sizes`, if given, receives what each stage cost.

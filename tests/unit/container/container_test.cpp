@@ -322,6 +322,28 @@ TEST(Container, PredictorsOfLaterVersions) {
   }
 }
 
+/// The same of normals and texture coordinates that mates may have.
+TEST(Container, MatesAreOfALaterVersion) {
+  for (const Semantic semantic : {Semantic::kNormal, Semantic::kTexcoord}) {
+    Draft draft = simpleDraft();
+    AttributeInfo a;
+    a.format.semantic = semantic;
+    a.format.component_count = semantic == Semantic::kNormal ? 3 : 2;
+    a.coding =
+        semantic == Semantic::kNormal ? AttributeCoding::kOctahedral : AttributeCoding::kInteger;
+    if (a.coding == AttributeCoding::kInteger) a.format.component_type = ComponentType::kUint16;
+    a.bits = a.coding == AttributeCoding::kInteger ? 0 : 8;
+    a.predictor = kHasMates;
+    draft.pieces[0].attributes.push_back(a);
+    std::vector<uint8_t> payload = draft.write();
+    EXPECT_EQ(payload[kVersionOffset], 0x11);
+    EXPECT_EQ(parseError(payload), Error::kOk);
+    payload[kVersionOffset] = 0x10;
+    repairChecksum(payload);
+    EXPECT_EQ(parseError(payload), Error::kBadHeader);
+  }
+}
+
 TEST(Container, TheWithdrawnFormatIsNamed) {
   std::vector<uint8_t> payload = simpleDraft().write();
   std::copy_n(kWithdrawnMagic, 3, payload.begin());

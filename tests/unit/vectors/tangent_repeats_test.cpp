@@ -82,21 +82,13 @@ RoundTrip tripOf(TestMesh mesh, uint32_t normal_bits, Lie lie, uint8_t bits,
   return roundTrip(piece.view(), settings);
 }
 
-/// Nothing else of version 1.1.
-EncodeSettings withoutMirrors() {
-  EncodeSettings settings;
-  settings.without.add(Feature::kMirrors);
-  settings.without.add(Feature::kMates);
-  return settings;
-}
-
 TEST(TangentRepeats, AllChoicesComeBack) {
   std::set<uint32_t> seen;  // the coding, and the bits
   for (const TestMesh& mesh : carriers()) {
     for (const uint32_t normal_bits : {kNone, 0u, 4u, 10u}) {
       for (const Lie lie : {Lie::kBesideNormals, Lie::kAnywhere, Lie::kOnePerFace}) {
         for (uint64_t seed = 0; seed < 6; ++seed) {
-          EncodeSettings settings = withoutMirrors();
+          EncodeSettings settings = without({Feature::kMirrors, Feature::kMates});
           settings.variation = seed == 0 ? 0 : seed + 10 * normal_bits + 100 * uint64_t(lie);
           const auto bits = static_cast<uint8_t>(2 + 3 * (seed % 4));
           const RoundTrip trip = tripOf(mesh, normal_bits, lie, bits, settings);
@@ -122,9 +114,7 @@ TEST(TangentRepeats, AllChoicesComeBack) {
 
 /// Bytes with all choices but those of `features`.
 size_t bytesWithout(const TestMesh& mesh, Lie lie, std::initializer_list<Feature> features) {
-  EncodeSettings settings;
-  for (const Feature feature : features) settings.without.add(feature);
-  const RoundTrip trip = tripOf(mesh, 10, lie, 12, settings);
+  const RoundTrip trip = tripOf(mesh, 10, lie, 12, without(features));
   EXPECT_EQ(trip.failure, "");
   return trip.encoded.payload.size();
 }
@@ -137,8 +127,8 @@ TEST(TangentRepeats, OnePerFacePays) {
     mesh.texcoords.push_back(mesh.positions[3 * w] + 0.3f * mesh.positions[3 * w + 2]);
     mesh.texcoords.push_back(mesh.positions[3 * w + 1]);
   }
-  const auto bytes = [&](std::initializer_list<Feature> without) {
-    return bytesWithout(mesh, Lie::kOnePerFace, without);
+  const auto bytes = [&](std::initializer_list<Feature> features) {
+    return bytesWithout(mesh, Lie::kOnePerFace, features);
   };
   const size_t with = bytes({});
   EXPECT_LT(2 * with, bytes({Feature::kTangentRepeats})) << "1812 and 4006 when this was written";
@@ -148,10 +138,9 @@ TEST(TangentRepeats, OnePerFacePays) {
 TEST(TangentRepeats, WithoutThemTheVersionIs10) {
   for (const TestMesh& mesh : carriers()) {
     for (const uint64_t variation : {0, 1, 2, 3}) {
-      EncodeSettings settings = withoutMirrors();
+      EncodeSettings settings = without(
+          {Feature::kMirrors, Feature::kMates, Feature::kTangentRepeats, Feature::kTangentFaces});
       settings.variation = variation;
-      settings.without.add(Feature::kTangentRepeats);
-      settings.without.add(Feature::kTangentFaces);
       const RoundTrip trip = tripOf(mesh, 8, Lie::kOnePerFace, 8, settings);
       EXPECT_EQ(trip.failure, "") << mesh.name;
       EXPECT_EQ(trip.encoded.payload[kVersionOffset], 0x10) << mesh.name;

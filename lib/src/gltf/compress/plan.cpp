@@ -497,8 +497,8 @@ bool keepSameOrders(const PayloadPlan& a, const PayloadPlan& b) {
 void gatherPayloads(std::vector<PayloadPlan>& payloads) {
   const std::vector<bool> may_be_gathered = mayBeGathered(payloads);
   std::vector<PayloadPlan> gathered;
-  size_t open = 0;                         // the payload that others join
-  uint64_t wedge_count = kGatheredWedges;  // its vertices; there is none yet
+  size_t open = 0;                             // the payload that others join
+  uint64_t wedge_count = kGatheredWedges + 1;  // its vertices; no payload is open yet
   for (size_t i = 0; i < payloads.size(); ++i) {
     PayloadPlan& payload = payloads[i];
     const uint64_t more = wedgesOf(payload);
