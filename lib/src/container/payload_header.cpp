@@ -167,8 +167,10 @@ Status checkReferences(AttributeInfos all, uint8_t version_minor, size_t at) {
     if (!isKnownPredictor(method, all[i].predictor)) {
       return fail(Error::kBadHeader, "an attribute has an unknown predictor", at);
     }
-    // The core has none of what later versions added.
-    if (kWhole && minorVersionOf(method, all[i].predictor) > version_minor) {
+    // Of what later versions added, the core has only mates.
+    const uint8_t needed =
+        kWhole ? minorVersionOf(method, all[i].predictor) : asksMates(method, all[i].predictor);
+    if (needed > version_minor) {
       return fail(Error::kBadHeader, "a predictor is not in the payload's version", at);
     }
     if (!isDecoded(method, all[i].predictor))

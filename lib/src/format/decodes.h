@@ -26,7 +26,6 @@ inline constexpr bool kOrders = kWhole;       ///< kept orders of triangles and 
 inline constexpr bool kExactFloats = kWhole;  ///< also exact grids
 inline constexpr bool kPivots = kWhole;       ///< faces coded vertex by vertex
 inline constexpr bool kPlanes = kWhole;       ///< planes of positions
-inline constexpr bool kMirrors = kWhole;      ///< mirrored halves: positions, and values of mates
 inline constexpr bool kTangentPoints = kWhole;
 inline constexpr bool kTangentRepeats = kWhole;
 inline constexpr bool kBlocks = kWhole;  ///< surfaces cut into blocks

@@ -47,9 +47,7 @@ inline constexpr uint32_t kMirrors = 1u << 12;
 inline constexpr uint32_t kAll = 0x1fff;
 inline constexpr uint32_t kSinceMinor1 = kMirrors;  ///< what minor version 1 added
 /// The flags of pieces that this decoder knows.
-inline constexpr uint32_t kDecoded = kAll &
-                                     ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder) &
-                                     ~(decodes::kMirrors ? 0 : kMirrors);
+inline constexpr uint32_t kDecoded = kAll & ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder);
 }  // namespace piece_flag
 
 struct PieceFlagInfo {

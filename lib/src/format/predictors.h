@@ -146,7 +146,7 @@ inline constexpr PredictorField kTangentRepeats = {
 
 /// It is the last, so that what it gains is over the best of all other fields.
 inline constexpr PredictorField kMates = {
-    kHasMates, 2, Feature::kMates, {{"", "", 0}, {"mates", "A.10.20", 5}}, decodes::kMirrors, 1};
+    kHasMates, 2, Feature::kMates, {{"", "", 0}, {"mates", "A.10.20", 5}}, true, 1};
 
 /// A mode of positions.
 constexpr PredictorField modeField(uint8_t mask, Feature feature, const char* word,

@@ -1,8 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Codes the positions of a piece with mirrors: as positions/positions.h does, but first says of
-// each vertex whether it is the image of one that is known. The whole decoder for the web has only
-// this coder, for pieces without mirrors, too. [A.6.14]
+// each vertex whether it is the image of one that is known. Compact code has only this coder, for
+// pieces without mirrors, too. [A.6.14]
 #ifndef MCC_POSITIONS_MIRRORED_H_
 #define MCC_POSITIONS_MIRRORED_H_
 

@@ -357,7 +357,7 @@ Status PieceCoder<Io>::codePositions(const PieceTruth& truth, const PositionPara
   describePositions(attributes_[0], parameters);
   MCC_TRY(codePositionTables(io_, models_.positions.tables, parameters));
   Mirrors mirrors;
-  if (decodes::kMirrors && header_.has(piece_flag::kMirrors))
+  if (header_.has(piece_flag::kMirrors))
     MCC_TRY(codeMirrors(io_, parameters.bits, Io::kEncoding ? *truth.mirrors : mirrors, mirrors));
   PositionPalettes palettes(allocator_);
   if (parameters.has(position_mode::kPalette)) {
@@ -377,15 +377,11 @@ Status PieceCoder<Io>::codePositions(const PieceTruth& truth, const PositionPara
   models_.positions.rows.prepare(parameters.modes);
   sequence.clear();
   if (needsSequence() && !sequence.resize(groups.count)) return noMemory();
-  constexpr bool kOnlyMirrored = kCompact && decodes::kMirrors;
-  if constexpr (!kOnlyMirrored) {
-    if (!decodes::kMirrors || !header_.has(piece_flag::kMirrors))
-      MCC_TRY(runPositions(parameters, truth));
+  if constexpr (!kCompact) {
+    if (!header_.has(piece_flag::kMirrors)) MCC_TRY(runPositions(parameters, truth));
   }
-  if constexpr (decodes::kMirrors) {
-    if (kOnlyMirrored || header_.has(piece_flag::kMirrors))
-      MCC_TRY(runMirrored(parameters, mirrors, truth));
-  }
+  if (kCompact || header_.has(piece_flag::kMirrors))
+    MCC_TRY(runMirrored(parameters, mirrors, truth));
   if (header_.isolated_count != 0) {
     const int32_t* const known =
         Io::kEncoding ? truth.positions + 3 * size_t{groups.count} : nullptr;
@@ -461,8 +457,7 @@ Status PieceCoder<Io>::prepareAttributes() {
   if (header_.attribute_count < 2) return {};
   MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
                               header_.has(piece_flag::kSeams) ? wedge_group.data() : nullptr));
-  if (decodes::kMirrors && mates.mirror_count != 0)
-    MCC_TRY(stage_.findWedgeMates(mates, groups.count));
+  if (mates.mirror_count != 0) MCC_TRY(stage_.findWedgeMates(mates, groups.count));
   if (stage_.needsExactPositions()) MCC_TRY(listExactPositions());
   MCC_TRY(findGroupPositions());
   records.reset();

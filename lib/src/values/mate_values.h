@@ -8,7 +8,6 @@
 #include <cstdint>
 
 #include "entropy/models.h"
-#include "format/decodes.h"
 #include "surface/wedge_mates.h"
 #include "values/attribute_job.h"
 
@@ -32,7 +31,7 @@ class MateValues {
   /// image(axis, value, to) computes what a value is across an axis.
   template <class Image>
   bool code(uint32_t w, Image image) {
-    if (!decodes::kMirrors || mates_ == nullptr) return false;
+    if (mates_ == nullptr) return false;
     int32_t* const value = job_.values + 2 * size_t{w};
     int32_t asked[kMostAskedMates][2];
     uint32_t count = 0;
