@@ -136,7 +136,7 @@ Status parseAttribute(ByteReader& in, AttributeInfos before, AttributeInfo& a) {
       return fail(Error::kBadHeader, "an octahedral attribute is malformed", at);
     }
   }
-  if (a.coding == AttributeCoding::kTangentAngle) {
+  if (decodes::kTangents && a.coding == AttributeCoding::kTangentAngle) {
     MCC_TRY(in.readU8(a.bits));
     if (a.bits < kMinUnitBits || a.bits > kMaxUnitBits || a.format.component_count != 4 ||
         a.format.semantic != Semantic::kTangent || a.format.morph_target != 0) {
@@ -160,7 +160,8 @@ Status checkReferences(AttributeInfos all, uint8_t version_minor, size_t at) {
         return fail(Error::kBadHeader, "an attribute is equal to one it cannot be equal to", at);
       }
     }
-    if (all[i].coding == AttributeCoding::kTangentAngle && normalOfTangents(all) == kNone) {
+    if (decodes::kTangents && all[i].coding == AttributeCoding::kTangentAngle &&
+        normalOfTangents(all) == kNone) {
       return fail(Error::kBadHeader, "tangents refer to normals that are not there", at);
     }
     const AttributeMethod method = methodOf(all, i);

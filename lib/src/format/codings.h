@@ -53,7 +53,8 @@ inline constexpr CodingInfo kCodings[] = {
     {AttributeCoding::kExactFloat, "exact float", "exact float", "A.2.4 A.10.18", false,
      decodes::kExactFloats},
     {AttributeCoding::kOctahedral, "octahedral", "octahedral", "A.2.4 A.10.6", true, true},
-    {AttributeCoding::kTangentAngle, "tangent angle", "angle", "A.2.4 A.10.12", true, true},
+    {AttributeCoding::kTangentAngle, "tangent angle", "angle", "A.2.4 A.10.12", true,
+     decodes::kTangents},
     {AttributeCoding::kAlias, "alias", "alias", "A.2.4", false, true},
     {AttributeCoding::kGrid, "grid", "exact grid", "A.2.4 A.10.5", false, decodes::kExactFloats},
 };

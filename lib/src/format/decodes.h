@@ -26,9 +26,8 @@ inline constexpr bool kOrders = kWhole;       ///< kept orders of triangles and 
 inline constexpr bool kExactFloats = kWhole;  ///< also exact grids
 inline constexpr bool kPivots = kWhole;       ///< faces coded vertex by vertex
 inline constexpr bool kPlanes = kWhole;       ///< planes of positions
-inline constexpr bool kTangentPoints = kWhole;
-inline constexpr bool kTangentRepeats = kWhole;
-inline constexpr bool kBlocks = kWhole;  ///< surfaces cut into blocks
+inline constexpr bool kTangents = kWhole;     ///< tangents that are quantised
+inline constexpr bool kBlocks = kWhole;       ///< surfaces cut into blocks
 }  // namespace decodes
 
 /// A bit for each row of a table whose `is_decoded` is set, by the number of its `coding`. The

@@ -140,9 +140,12 @@ inline constexpr PredictorField kNormalBlend = {
 
 /// It comes after the equalities, which spare much of what repeats, too: chosen first, it would
 /// hide what they gain.
-inline constexpr PredictorField kTangentRepeats = {
-    tangent_method::kRepeats, 2, Feature::kTangentRepeats, {{"", "", 0}, {"repeats", "A.10.19", 5}},
-    decodes::kTangentRepeats, 1};
+inline constexpr PredictorField kTangentRepeats = {tangent_method::kRepeats,
+                                                   2,
+                                                   Feature::kTangentRepeats,
+                                                   {{"", "", 0}, {"repeats", "A.10.19", 5}},
+                                                   true,
+                                                   1};
 
 /// It is the last, so that what it gains is over the best of all other fields.
 inline constexpr PredictorField kMates = {
@@ -210,7 +213,8 @@ inline constexpr MethodInfo kMethods[] = {
      "A.10.13 A.10.12 A.10.7",
      kHasEqualities,
      2,
-     {detail::kEqualities, detail::kTangentRepeats}},
+     {detail::kEqualities, detail::kTangentRepeats},
+     decodes::kTangents},
     {AttributeMethod::kTangentPoint,
      "tangent point",
      "chart",
@@ -225,7 +229,7 @@ inline constexpr MethodInfo kMethods[] = {
        {{"", "", 0}, {"faces", "A.10.19", 5}},
        true,
        1}},
-     decodes::kTangentPoints},
+     decodes::kTangents},
     {AttributeMethod::kSkin,
      "skin",
      "skin",

@@ -105,7 +105,7 @@ class AttributeStage {
         mates_(allocator),
         lengths_(allocator) {
     for (uint32_t i = 1; i < attributes.size(); ++i) {
-      has_tangents_ |= codingPhase(attributes[i]) == 1;
+      has_tangents_ |= decodes::kTangents && codingPhase(attributes[i]) == 1;
     }
   }
 
@@ -114,7 +114,7 @@ class AttributeStage {
 
   /// Keeps what tangents will be predicted from.
   Status keepForOthers(uint32_t index, const Array<int32_t>& values) {
-    if (!has_tangents_) return {};
+    if (!decodes::kTangents || !has_tangents_) return {};
     if (index == normal_) {
       if (!normals.resize(values.size())) return noMemory();
       std::copy(values.data(), values.data() + values.size(), normals.data());
@@ -235,6 +235,7 @@ class AttributeStage {
     switch (method) {
       case AttributeMethod::kExactNormal: return codeExactNormals(job);
       case AttributeMethod::kExactTangent: return codeExactTangents(job);
+      case AttributeMethod::kTangent: return codeTangents(job);
       case AttributeMethod::kTangentPoint: return codeTangentPoints(job);
       default: return {};
     }
@@ -372,11 +373,10 @@ Status AttributeStage<Io>::code(uint32_t index, Array<int32_t>& values) {
   switch (method) {
     case AttributeMethod::kNormal: MCC_TRY(codeNormals(job)); break;
     case AttributeMethod::kTexcoord: MCC_TRY(codeTexcoords(job)); break;
-    case AttributeMethod::kTangent: MCC_TRY(codeTangents(job)); break;
     case AttributeMethod::kSkin: MCC_TRY(codeSkin(job, index)); break;
     case AttributeMethod::kValues: MCC_TRY(run<ValueCoder>(job, models_.valuesOf(info))); break;
     default:
-      if (decodes::kExactFloats || decodes::kTangentPoints) MCC_TRY(codeRare(method, job));
+      if (decodes::kExactFloats || decodes::kTangents) MCC_TRY(codeRare(method, job));
       break;
   }
   if (decodes::kExactFloats && grid.info != nullptr) MCC_TRY(leaveGrid(grid, values.data()));

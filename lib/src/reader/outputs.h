@@ -186,7 +186,7 @@ inline void storeAttribute(const TangentNormals& normals, AttributeInfos infos, 
   for (size_t i = index; i < targets.size(); ++i) {
     const bool is_alias = infos[i].coding == AttributeCoding::kAlias && infos[i].alias_of == index;
     if (targets[i].data == nullptr || (i != index && !is_alias)) continue;
-    if (a.coding == AttributeCoding::kTangentAngle) {
+    if (decodes::kTangents && a.coding == AttributeCoding::kTangentAngle) {
       storeTangents(a, values, *normals.info, normals.points, wedge_at, targets[i]);
     } else {
       if constexpr (kCompact) {

@@ -26,7 +26,7 @@ class TangentRepeats {
   TangentRepeats(const AttributeJob<Io>& job, TangentRepeatModels& models, const int32_t* normals)
       : job_(job),
         models_(models),
-        is_on_(decodes::kTangentRepeats && (job.info.predictor & tangent_method::kRepeats) != 0),
+        is_on_((job.info.predictor & tangent_method::kRepeats) != 0),
         normals_(normals) {
     if (is_on_) std::fill_n(latest_, kSlots, kNone);
   }
