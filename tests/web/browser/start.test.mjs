@@ -33,7 +33,7 @@ test('preload() loads the core and starts one worker, before there is a file', a
 test('a script with the core inside takes no request for it', async () => {
   const { page, violations, requests } = await open();
   await preload(page, '/lib/inline.mjs');
-  await page.evaluate((name) => globalThis.draw(name), 'textured.mcc');
+  await page.evaluate((name) => globalThis.draw(name), 'materials.mcc');
   assert.deepEqual(requests.filter((path) => path.endsWith('.wasm')), []);
   assert.deepEqual(violations(), []);
   await page.close();
