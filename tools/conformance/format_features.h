@@ -19,7 +19,7 @@ using Features = std::map<std::string, std::set<std::string>>;
 /// codes.
 Features featuresOf(std::span<const uint8_t> payload);
 
-/// The sections that the features stand for together.
+/// The sections that the features stand for together, without those that every payload shows.
 std::set<std::string> sectionsOf(const Features& features);
 
 }  // namespace mcc::conformance

@@ -19,7 +19,7 @@
 namespace mcc::test {
 namespace {
 
-// ---- Binary model -------------------------------------------------------------------------------
+// ---- Binary model [A.3.1] -----------------------------------------------------------------------
 
 TEST(BitModel, StartsUndecidedAndLearnsFast) {
   BitModel model;
@@ -71,7 +71,7 @@ TEST(BitModel, ConvergesToTheFrequency) {
   }
 }
 
-// ---- Range coder --------------------------------------------------------------------------------
+// ---- Range coder [A.3.2] ------------------------------------------------------------------------
 
 struct CodedBits {
   std::vector<uint8_t> bits;
