@@ -11,6 +11,7 @@ namespace {
 
 /// The extension whose property tables lie in buffer views.
 constexpr char kMetadataExtension[] = "EXT_structural_metadata";
+constexpr char kRestartExtension[] = "EXT_mesh_primitive_restart";
 
 using Names = std::initializer_list<std::string_view>;
 
@@ -59,6 +60,22 @@ bool areLineStringsUnderstood(const Json& visibility) {
   if (!strings->is_array()) return false;
   return std::all_of(strings->begin(), strings->end(), [](const Json& line_string) {
     return hasOnlyWithExtras(line_string, {"indices", "material"});
+  });
+}
+
+/// Whether these are groups of primitives that are named by numbers. Nothing else in their mesh
+/// depends on an order.
+bool areGroups(const Json& restart) {
+  if (!hasOnlyWithExtras(restart, {"primitiveGroups"})) return false;
+  const Json* groups = findMember(restart, "primitiveGroups");
+  if (groups == nullptr || !groups->is_array()) return false;
+  return std::all_of(groups->begin(), groups->end(), [](const Json& group) {
+    if (!hasOnlyWithExtras(group, {"primitives", "indices", "name"})) return false;
+    const Json* primitives = findMember(group, "primitives");
+    uint64_t number = 0;
+    return primitives != nullptr && primitives->is_array() &&
+           std::all_of(primitives->begin(), primitives->end(),
+                       [&](const Json& primitive) { return asUnsigned(primitive, number); });
   });
 }
 
@@ -121,6 +138,7 @@ constexpr KnownExtension kKnownExtensions[] = {
                                          "silhouetteNormals"}) &&
               areLineStringsUnderstood(object);
      }},
+    {kRestartExtension, areGroups, areGroups},
     {"EXT_meshopt_compression"},
     {kMetadataExtension,
      [](const Json& object) {
@@ -246,6 +264,22 @@ void visitExtensionAccessors(const Json& primitive,
   for (const Json& line_string : arrayOf(*visibility, "lineStrings")) {
     const Json* number = findMember(line_string, "indices");
     if (number != nullptr) visit(*number, ExtensionAccessor::kOther);
+  }
+}
+
+void visitMeshExtensionAccessors(const Json& mesh, const std::function<void(const Json&)>& visit) {
+  const Json* restart = extensionOf(mesh, kRestartExtension);
+  if (restart == nullptr) return;
+  for (const Json& group : arrayOf(*restart, "primitiveGroups")) {
+    if (const Json* number = findMember(group, "indices")) visit(*number);
+  }
+}
+
+void visitGroupedPrimitives(const Json& mesh, const std::function<void(const Json&)>& visit) {
+  const Json* restart = extensionOf(mesh, kRestartExtension);
+  if (restart == nullptr) return;
+  for (const Json& group : arrayOf(*restart, "primitiveGroups")) {
+    for (const Json& number : arrayOf(group, "primitives")) visit(number);
   }
 }
 

@@ -1,0 +1,204 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Extensions that name vertices or triangles by number, or draw the same bytes another way. What
+// they say of places in space is the same after compression, in whatever order vertices and
+// triangles come.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "gltf/round_trip.h"
+#include "support/scratch_folder.h"
+#include "support/validator.h"
+
+namespace mcc::gltf::test {
+namespace {
+
+constexpr uint32_t kSize = 20;
+constexpr uint32_t kRow = kSize + 1;
+
+/// A vertex of a sheet by its row and column, which no rounding of its position changes.
+using Place = std::array<long, 2>;
+using Triangle = std::array<Place, 3>;
+
+std::vector<Place> placesOf(const std::vector<uint8_t>& file, uint32_t positions) {
+  const std::vector<float> values = floatsInOrder(file, positions);
+  std::vector<Place> places;
+  for (size_t i = 0; i < values.size(); i += 3) {
+    places.push_back({std::lround(values[i] * kSize), std::lround(values[i + 1] * kSize)});
+  }
+  return places;
+}
+
+std::vector<uint32_t> numbersOf(const std::vector<uint8_t>& file, uint32_t accessor) {
+  std::vector<uint32_t> numbers;
+  for (const std::string& element : elementsInOrder(file, accessor)) {
+    numbers.push_back(0);
+    std::memcpy(&numbers.back(), element.data(), element.size());
+  }
+  return numbers;
+}
+
+/// Turns a triangle so that it begins with its least place.
+Triangle turned(const Triangle& triangle) {
+  return std::min(
+      {triangle, {triangle[1], triangle[2], triangle[0]}, {triangle[2], triangle[0], triangle[1]}});
+}
+
+/// Returns the triangles of a strip, or of several that are divided by `restart`.
+std::multiset<Triangle> trianglesOfStrips(const std::vector<uint32_t>& numbers, uint32_t restart,
+                                          const std::vector<Place>& places) {
+  std::multiset<Triangle> triangles;
+  size_t first = 0;
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    if (numbers[i] == restart) first = i + 1;
+    if (numbers[i] == restart || i < first + 2) continue;
+    const bool is_odd = (i - first) % 2 != 0;
+    const auto at = [&](size_t k) { return places.at(numbers[k]); };
+    triangles.insert(turned({at(i - 2), at(is_odd ? i : i - 1), at(is_odd ? i - 1 : i)}));
+  }
+  return triangles;
+}
+
+bool keepsVertexOrder(const RoundTrip& trip, const Json& primitive) {
+  const uint32_t positions = primitive["attributes"]["POSITION"];
+  return placesOf(trip.source, positions) == placesOf(trip.decoded, positions);
+}
+
+std::vector<ConvertOptions> exactAndRounded() { return {lossless(), ConvertOptions{}}; }
+
+// ---- EXT_mesh_primitive_restart
+
+constexpr uint32_t kRestart = 65535;
+
+/// The rows of a sheet as strips, one after the other.
+struct Strips {
+  std::vector<uint16_t> numbers;
+  std::vector<std::pair<size_t, size_t>> ranges;  ///< the first number of each strip, and how many
+
+  Strips() {
+    for (uint32_t y = 0; y < kSize; ++y) {
+      if (y != 0) numbers.push_back(kRestart);
+      ranges.emplace_back(numbers.size(), 2 * kRow);
+      for (uint32_t x = 0; x <= kSize; ++x) {
+        numbers.push_back(static_cast<uint16_t>((y + 1) * kRow + x));
+        numbers.push_back(static_cast<uint16_t>(y * kRow + x));
+      }
+    }
+  }
+};
+
+/// A mesh of strips that can be drawn at once, a strip of its own, and a list of triangles.
+struct RestartDocument {
+  Builder builder;
+  Json group_strip;  ///< one of the group
+  Json list;         ///< the last primitive
+  uint32_t all = 0;  ///< the accessor of the indices of the group
+  uint32_t other = 0;
+
+  RestartDocument() {
+    const Strips strips;
+    const Json attributes = Sheet(kSize).addTo(builder)["attributes"];
+    const uint32_t view = builder.addView(bytesOf(strips.numbers), 0, kForIndices);
+    std::vector<Json> primitives;
+    Json numbers = Json::array();
+    for (const auto& [first, count] : strips.ranges) {
+      numbers.push_back(primitives.size());
+      const uint32_t indices = builder.addAccessor({{"bufferView", view},
+                                                    {"byteOffset", 2 * first},
+                                                    {"componentType", kUnsignedShort},
+                                                    {"count", count},
+                                                    {"type", "SCALAR"}});
+      group_strip = {{"attributes", attributes}, {"indices", indices}, {"mode", 5}};
+      primitives.push_back(group_strip);
+    }
+    all = builder.addAccessor(view, kUnsignedShort, "SCALAR", strips.numbers.size());
+    list = Sheet(kSize).addTo(builder);
+    primitives.push_back(list);
+    builder.addMesh(primitives);
+    other = builder.addMesh({Sheet(24).addTo(builder)});
+    builder.json["meshes"][0]["extensions"]["EXT_mesh_primitive_restart"]["primitiveGroups"] = {
+        {{"primitives", numbers}, {"indices", all}}};
+    builder.json["extensionsUsed"] = {"EXT_mesh_primitive_restart"};
+  }
+};
+
+TEST(MeshExtensions, GroupsOfStripsAreDrawnAsBefore) {
+  const RestartDocument d;
+  for (const ConvertOptions& options : exactAndRounded()) {
+    const RoundTrip trip = roundTrip(d.builder, options);
+    ASSERT_EQ(trip.error, "");
+    const Json converted = jsonOf(trip.converted);
+    const uint32_t positions = d.group_strip["attributes"]["POSITION"];
+    std::multiset<Triangle> separate;
+    for (uint32_t i = 0; i < kSize; ++i) {
+      EXPECT_FALSE(isCompressed(converted, 0, i)) << i;
+      separate.merge(trianglesOfStrips(
+          numbersOf(trip.decoded, converted["meshes"][0]["primitives"][i]["indices"]), kRestart,
+          placesOf(trip.decoded, positions)));
+    }
+    EXPECT_TRUE(hasNote(trip.report, "belongs to a group of EXT_mesh_primitive_restart"));
+    for (const auto* file : {&trip.source, &trip.converted, &trip.decoded}) {
+      EXPECT_EQ(trianglesOfStrips(numbersOf(*file, d.all), kRestart, placesOf(*file, positions)),
+                separate);
+    }
+    EXPECT_EQ(separate.size(), 2 * kSize * kSize);
+    EXPECT_EQ(converted["meshes"][0]["extensions"], d.builder.json["meshes"][0]["extensions"]);
+    // All others are compressed as if the extension were not there.
+    EXPECT_TRUE(isCompressed(converted, 0, kSize));
+    EXPECT_FALSE(keepsVertexOrder(trip, d.list));
+    EXPECT_TRUE(isCompressed(converted, d.other, 0));
+  }
+}
+
+/// Nobody else names the indices of a group as such, but another mesh may use them as its own.
+TEST(MeshExtensions, IndicesOfAGroupAreNotChangedForAnotherMesh) {
+  RestartDocument d;
+  Json& meshes = d.builder.json["meshes"];
+  Json& group = meshes[0]["extensions"]["EXT_mesh_primitive_restart"]["primitiveGroups"][0];
+  group["primitives"] = {3};
+  group["indices"] = meshes[1]["primitives"][0]["indices"];
+  const RoundTrip trip = roundTrip(d.builder);
+  ASSERT_EQ(trip.error, "");
+  ASSERT_TRUE(isCompressed(jsonOf(trip.converted), 1, 0));
+  for (const auto* file : {&trip.converted, &trip.decoded}) {
+    EXPECT_EQ(numbersOf(*file, group["indices"]), numbersOf(trip.source, group["indices"]));
+  }
+}
+
+/// Groups of some other version may mean anything.
+TEST(MeshExtensions, UnknownGroupsKeepEveryOrder) {
+  for (const char* object :
+       {"{}", R"({"primitiveGroups":{}})", R"({"primitiveGroups":[7]})",
+        R"({"primitiveGroups":[{"primitives":[0],"first":1}]})",
+        R"({"primitiveGroups":[{"indices":1}]})", R"({"primitiveGroups":[{"primitives":["0"]}]})",
+        R"({"primitiveGroups":[{"primitives":[-1]}]})", R"({"primitiveGroups":[],"faces":[]})"}) {
+    SCOPED_TRACE(object);
+    RestartDocument d;
+    ASSERT_TRUE(parseJson(asBytes(object),
+                          d.builder.json["meshes"][0]["extensions"]["EXT_mesh_primitive_restart"])
+                    .ok());
+    const RoundTrip trip = roundTrip(d.builder);
+    ASSERT_EQ(trip.error, "");
+    EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 0, kSize));
+    EXPECT_TRUE(keepsVertexOrder(trip, d.list));
+  }
+}
+
+// ---- All of them
+
+TEST(MeshExtensions, ValidatorHasNoObjection) {
+  const std::string missing = mcc::test::Validator::whyNot();
+  if (!missing.empty()) GTEST_SKIP() << missing;
+  const mcc::test::ScratchFolder folder;
+  mcc::test::Validator validator(folder.path());
+  const RoundTrip restart = roundTrip(RestartDocument().builder);
+  validator.add("restart", restart.source, restart.converted, restart.decoded);
+  EXPECT_TRUE(validator.run()) << "the lines above name what is new";
+}
+
+}  // namespace
+}  // namespace mcc::gltf::test
