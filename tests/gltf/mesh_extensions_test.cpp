@@ -188,6 +188,175 @@ TEST(MeshExtensions, UnknownGroupsKeepEveryOrder) {
   }
 }
 
+// ---- EXT_mesh_manifold
+
+/// A pillow of two sheets, whose vertices differ along the rim because their normals do. The
+/// extension says which of them are one, and that this closes the surface.
+struct ManifoldDocument {
+  Builder builder;
+  uint32_t positions = 0;
+  uint32_t indices = 0;  ///< of the whole surface
+  uint32_t merge_indices = 0;
+  uint32_t merge_values = 0;
+
+  ManifoldDocument() {
+    const Sheet sheet(kSize);
+    std::vector<float> all_positions;
+    std::vector<float> normals;
+    std::vector<uint16_t> numbers;
+    for (const bool is_back : {false, true}) {
+      for (uint32_t i = 0; i < sheet.count(); ++i) {
+        const float u = sheet.positions[3 * i];
+        const float v = sheet.positions[3 * i + 1];
+        const float height = u * (1 - u) * v * (1 - v);
+        all_positions.insert(all_positions.end(), {u, v, is_back ? -height : height});
+        normals.insert(normals.end(), {0, 0, is_back ? -1.0f : 1.0f});
+      }
+    }
+    // The diagonals differ, so that none of them joins the same two vertices of the rim.
+    for (const uint16_t number : sheet.indices) numbers.push_back(number);
+    for (uint32_t i = 0; i + kRow < sheet.count(); ++i) {
+      if (i % kRow == kSize) continue;
+      const uint32_t a = sheet.count() + i;
+      for (const uint32_t number : {a, a + kRow, a + 1, a + 1, a + kRow, a + kRow + 1}) {
+        numbers.push_back(static_cast<uint16_t>(number));
+      }
+    }
+    addIndices(numbers, sheet.count());
+    positions = builder.addPositions(all_positions);
+    const Json attributes = {{"POSITION", positions}, {"NORMAL", builder.addFloats(normals, 3)}};
+    const uint32_t half = static_cast<uint32_t>(numbers.size() / 2);
+    builder.addMesh({{{"attributes", attributes}, {"indices", addHalf(0, half)}},
+                     {{"attributes", attributes}, {"indices", addHalf(half, half)}}});
+    builder.addMesh({Sheet(24).addTo(builder)});
+    builder.json["meshes"][0]["extensions"]["EXT_mesh_manifold"] = {
+        {"manifoldPrimitive",
+         {{"indices", indices}, {"mode", 4}, {"attributes", {{"POSITION", positions}}}}},
+        {"mergeIndices", merge_indices},
+        {"mergeValues", merge_values}};
+    builder.json["extensionsUsed"] = {"EXT_mesh_manifold"};
+  }
+
+ private:
+  /// Adds a sparse accessor that merges the vertices of the rim, and accessors over its parts.
+  void addIndices(const std::vector<uint16_t>& numbers, uint32_t count) {
+    std::vector<uint16_t> merged;
+    std::vector<uint16_t> values;
+    for (size_t i = numbers.size() / 2; i < numbers.size(); ++i) {
+      const uint32_t number = numbers[i] - count;
+      const bool is_on_rim = number % kRow % kSize == 0 || number / kRow % kSize == 0;
+      if (!is_on_rim) continue;
+      merged.push_back(static_cast<uint16_t>(i));
+      values.push_back(static_cast<uint16_t>(number));
+    }
+    const size_t value_offset = 2 * merged.size();
+    const size_t merge_count = merged.size();
+    merged.insert(merged.end(), values.begin(), values.end());
+    const uint32_t merge_view = builder.addView(bytesOf(merged));
+    const Json value_place = {{"bufferView", merge_view}, {"byteOffset", value_offset}};
+    merge_indices = builder.addAccessor(merge_view, kUnsignedShort, "SCALAR", merge_count);
+    Json value_accessor = {
+        {"componentType", kUnsignedShort}, {"count", merge_count}, {"type", "SCALAR"}};
+    value_accessor.update(value_place);
+    merge_values = builder.addAccessor(value_accessor);
+    index_view_ = builder.addView(bytesOf(numbers), 0, kForIndices);
+    indices = builder.addAccessor(
+        {{"bufferView", index_view_},
+         {"componentType", kUnsignedShort},
+         {"count", numbers.size()},
+         {"type", "SCALAR"},
+         {"sparse",
+          {{"count", merge_count},
+           {"indices", {{"bufferView", merge_view}, {"componentType", kUnsignedShort}}},
+           {"values", value_place}}}});
+  }
+
+  uint32_t addHalf(uint32_t first, uint32_t count) {
+    return builder.addAccessor({{"bufferView", index_view_},
+                                {"byteOffset", 2 * first},
+                                {"componentType", kUnsignedShort},
+                                {"count", count},
+                                {"type", "SCALAR"}});
+  }
+
+  uint32_t index_view_ = 0;
+};
+
+/// Expects that each directed edge of the surface is there once, and once the other way.
+void expectClosed(const std::vector<uint32_t>& numbers) {
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> count_of;
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    ++count_of[{numbers[i], numbers[i % 3 == 2 ? i - 2 : i + 1]}];
+  }
+  for (const auto& [edge, count] : count_of) {
+    EXPECT_EQ(count, 1u);
+    EXPECT_EQ(count_of.count({edge.second, edge.first}), 1u);
+  }
+}
+
+/// Expects the surface in a file, closed and in its places, and its sparse values where the
+/// extension says that they are.
+void expectManifold(const ManifoldDocument& d, const std::vector<uint8_t>& file) {
+  const std::vector<uint8_t> source = d.builder.toGlb();
+  expectClosed(numbersOf(file, d.indices));
+  for (const uint32_t accessor : {d.positions, d.indices, d.merge_indices, d.merge_values}) {
+    EXPECT_EQ(elementsInOrder(file, accessor), elementsInOrder(source, accessor));
+  }
+  const Json json = jsonOf(file);
+  const Json& accessors = json["accessors"];
+  EXPECT_EQ(json["meshes"][0], d.builder.json["meshes"][0]);
+  const Json& sparse = accessors[d.indices]["sparse"];
+  const auto placeOf = [](const Json& object) {
+    return std::pair(object["bufferView"].get<uint32_t>(),
+                     object.contains("byteOffset") ? object["byteOffset"].get<uint32_t>() : 0);
+  };
+  EXPECT_EQ(placeOf(accessors[d.merge_indices]), placeOf(sparse["indices"]));
+  EXPECT_EQ(placeOf(accessors[d.merge_values]), placeOf(sparse["values"]));
+  for (const Json& primitive : json["meshes"][0]["primitives"]) {
+    EXPECT_EQ(accessors[primitive["indices"].get<size_t>()]["bufferView"],
+              accessors[d.indices]["bufferView"]);
+  }
+}
+
+TEST(MeshExtensions, ManifoldMeshesStayClosed) {
+  for (const ConvertOptions& options : exactAndRounded()) {
+    const ManifoldDocument d;
+    const RoundTrip trip = roundTrip(d.builder, options);
+    ASSERT_EQ(trip.error, "");
+    EXPECT_FALSE(isCompressed(jsonOf(trip.converted), 0, 0));
+    EXPECT_FALSE(isCompressed(jsonOf(trip.converted), 0, 1));
+    EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 1, 0));
+    EXPECT_TRUE(hasNote(trip.report, "belongs to a mesh with EXT_mesh_manifold"));
+    for (const auto* file : {&trip.source, &trip.converted, &trip.decoded}) {
+      expectManifold(d, *file);
+    }
+  }
+}
+
+/// The extension may come after one that we do not know.
+TEST(MeshExtensions, ManifoldMeshesStayClosedWhateverElseTheyHave) {
+  ManifoldDocument d;
+  Json& extensions = d.builder.json["meshes"][0]["extensions"];
+  const Json manifold = extensions["EXT_mesh_manifold"];
+  extensions = Json::object();
+  extensions["ACME_mesh"] = {{"a", 1}};
+  extensions["EXT_mesh_manifold"] = manifold;
+  const RoundTrip trip = roundTrip(d.builder);
+  ASSERT_EQ(trip.error, "");
+  for (const auto* file : {&trip.converted, &trip.decoded}) expectManifold(d, *file);
+}
+
+/// A mesh may show the whole surface, with the accessors of the extension.
+TEST(MeshExtensions, TheSurfaceOfAManifoldMeshIsNotChangedForAnotherMesh) {
+  ManifoldDocument d;
+  const uint32_t whole =
+      d.builder.addMesh({{{"attributes", {{"POSITION", d.positions}}}, {"indices", d.indices}}});
+  const RoundTrip trip = roundTrip(d.builder, evenIfLarger());
+  ASSERT_EQ(trip.error, "");
+  ASSERT_TRUE(isCompressed(jsonOf(trip.converted), whole, 0));
+  for (const auto* file : {&trip.converted, &trip.decoded}) expectManifold(d, *file);
+}
+
 // ---- All of them
 
 TEST(MeshExtensions, ValidatorHasNoObjection) {
@@ -196,6 +365,8 @@ TEST(MeshExtensions, ValidatorHasNoObjection) {
   const mcc::test::ScratchFolder folder;
   mcc::test::Validator validator(folder.path());
   const RoundTrip restart = roundTrip(RestartDocument().builder);
+  const RoundTrip manifold = roundTrip(ManifoldDocument().builder);
+  validator.add("manifold", manifold.source, manifold.converted, manifold.decoded);
   validator.add("restart", restart.source, restart.converted, restart.decoded);
   EXPECT_TRUE(validator.run()) << "the lines above name what is new";
 }

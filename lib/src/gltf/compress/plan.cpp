@@ -49,7 +49,8 @@ class Planner {
  private:
   /// What the extensions of a mesh demand of its primitives.
   struct MeshExtensions {
-    std::string order_part;      ///< what depends on the order of their elements, or empty
+    std::string order_part;  ///< what depends on the order of their elements, or empty
+    bool is_manifold = false;
     std::set<uint64_t> grouped;  ///< those that EXT_mesh_primitive_restart draws together
   };
 
@@ -78,6 +79,7 @@ class Planner {
   static MeshExtensions extensionsOf(const Json& mesh) {
     MeshExtensions result;
     result.order_part = nameInNote(orderDependentPart(mesh, NumbersOfVertices::kStay));
+    result.is_manifold = isManifold(mesh);
     visitGroupedPrimitives(mesh, [&](const Json& number) {
       uint64_t primitive = 0;
       if (asUnsigned(number, primitive)) result.grouped.insert(primitive);
@@ -139,7 +141,7 @@ class Planner {
   }
 
   static std::string extensionNote(const Primitive& primitive, const MeshExtensions& mesh) {
-    if (mesh.order_part == "EXT_mesh_manifold") {  // it shares the bytes of the primitives' indices
+    if (mesh.is_manifold) {  // the extension shares the bytes of the primitives' indices
       return "belongs to a mesh with EXT_mesh_manifold";
     }
     if (mesh.grouped.contains(primitive.ref.primitive)) {  // the same, and no list of triangles

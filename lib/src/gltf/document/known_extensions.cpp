@@ -11,6 +11,7 @@ namespace {
 
 /// The extension whose property tables lie in buffer views.
 constexpr char kMetadataExtension[] = "EXT_structural_metadata";
+constexpr char kManifoldExtension[] = "EXT_mesh_manifold";
 constexpr char kRestartExtension[] = "EXT_mesh_primitive_restart";
 
 using Names = std::initializer_list<std::string_view>;
@@ -132,6 +133,15 @@ constexpr KnownExtension kKnownExtensions[] = {
     {"EXT_lights_image_based"},
     {"EXT_mesh_features", hasOnlyFeatureIds, hasExplicitIds},
     {"EXT_mesh_gpu_instancing"},
+    {kManifoldExtension,
+     [](const Json& object) {
+       if (!hasOnlyWithExtras(object, {"manifoldPrimitive", "mergeIndices", "mergeValues"})) {
+         return false;
+       }
+       const Json* primitive = findMember(object, "manifoldPrimitive");
+       return primitive == nullptr ||
+              hasOnlyWithExtras(*primitive, {"attributes", "indices", "mode"});
+     }},
     {"EXT_mesh_primitive_edge_visibility",
      [](const Json& object) {
        return hasOnlyWithExtras(object, {"visibility", "material", "lineStrings", "silhouetteMates",
@@ -268,12 +278,23 @@ void visitExtensionAccessors(const Json& primitive,
 }
 
 void visitMeshExtensionAccessors(const Json& mesh, const std::function<void(const Json&)>& visit) {
-  const Json* restart = extensionOf(mesh, kRestartExtension);
-  if (restart == nullptr) return;
-  for (const Json& group : arrayOf(*restart, "primitiveGroups")) {
-    if (const Json* number = findMember(group, "indices")) visit(*number);
+  const auto visitKey = [&](const Json* object, const char* key) {
+    if (const Json* number = member(object, key)) visit(*number);
+  };
+  if (const Json* restart = extensionOf(mesh, kRestartExtension)) {
+    for (const Json& group : arrayOf(*restart, "primitiveGroups")) visitKey(&group, "indices");
   }
+  const Json* manifold = extensionOf(mesh, kManifoldExtension);
+  visitKey(manifold, "mergeIndices");
+  visitKey(manifold, "mergeValues");
+  const Json* primitive = member(manifold, "manifoldPrimitive");
+  visitKey(primitive, "indices");
+  const Json* attributes = member(primitive, "attributes");
+  if (attributes == nullptr || !attributes->is_object()) return;
+  for (const Json& number : *attributes) visit(number);
 }
+
+bool isManifold(const Json& mesh) { return extensionOf(mesh, kManifoldExtension) != nullptr; }
 
 void visitGroupedPrimitives(const Json& mesh, const std::function<void(const Json&)>& visit) {
   const Json* restart = extensionOf(mesh, kRestartExtension);
