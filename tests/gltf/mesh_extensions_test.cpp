@@ -357,6 +357,159 @@ TEST(MeshExtensions, TheSurfaceOfAManifoldMeshIsNotChangedForAnotherMesh) {
   for (const auto* file : {&trip.converted, &trip.decoded}) expectManifold(d, *file);
 }
 
+// ---- EXT_mesh_primitive_edge_visibility and CESIUM_primitive_outline
+
+/// An edge without a direction.
+using Edge = std::array<Place, 2>;
+Edge edgeOf(const Place& a, const Place& b) { return {std::min(a, b), std::max(a, b)}; }
+
+constexpr uint32_t kHidden = 0;
+constexpr uint32_t kSilhouette = 1;
+constexpr uint32_t kHard = 2;
+constexpr uint32_t kHardAgain = 3;
+
+/// What EXT_mesh_primitive_edge_visibility says of a primitive.
+struct VisibleEdges {
+  std::multiset<std::pair<Edge, uint32_t>> edges;  ///< those that are not hidden
+  std::map<Edge, Place> mates;  ///< of silhouettes: the third vertex of the other triangle
+  std::vector<std::vector<Place>> line_strings;  ///< a place of -1 divides them
+
+  bool operator==(const VisibleEdges&) const = default;
+};
+
+VisibleEdges visibleEdgesIn(const std::vector<uint8_t>& file, const Json& primitive) {
+  const Json& extension = primitive["extensions"]["EXT_mesh_primitive_edge_visibility"];
+  const std::vector<Place> places = placesOf(file, primitive["attributes"]["POSITION"]);
+  const std::vector<uint32_t> corners = numbersOf(file, primitive["indices"]);
+  const std::vector<uint32_t> bits = numbersOf(file, extension["visibility"]);
+  const std::vector<uint32_t> mates = numbersOf(file, extension["silhouetteMates"]);
+  VisibleEdges visible;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Edge edge = edgeOf(places.at(corners[i]), places.at(corners[i % 3 == 2 ? i - 2 : i + 1]));
+    const uint32_t value = bits.at(i / 4) >> (2 * (i % 4)) & 3;
+    if (value == kSilhouette) visible.mates[edge] = places.at(mates.at(visible.mates.size()));
+    if (value != kHidden) visible.edges.emplace(edge, value);
+  }
+  for (const Json& line_string : extension["lineStrings"]) {
+    std::vector<Place>& string = visible.line_strings.emplace_back();
+    for (const uint32_t number : numbersOf(file, line_string["indices"])) {
+      string.push_back(number == kRestart ? Place{-1, -1} : places.at(number));
+    }
+  }
+  return visible;
+}
+
+/// Gives a sheet visible edges: its rim and every fifth row are hard, its diagonals are
+/// silhouettes, and two columns are strings.
+void addVisibility(Builder& builder, Json& primitive) {
+  const std::vector<uint16_t> corners = Sheet(kSize).indices;
+  std::vector<uint8_t> bits((2 * corners.size() + 7) / 8, 0);
+  std::vector<uint16_t> mates;
+  std::set<std::pair<uint32_t, uint32_t>> is_known;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const auto [a, b] = std::minmax(corners[i], corners[i % 3 == 2 ? i - 2 : i + 1]);
+    const bool is_again = !is_known.emplace(a, b).second;
+    const bool is_hard = b == a + 1 && a / kRow % 5 == 0;
+    const bool is_silhouette = b == a + kRow + 1;
+    if (is_silhouette && !is_again) mates.push_back(static_cast<uint16_t>(a + kRow));
+    const uint32_t value = is_hard                      ? (is_again ? kHardAgain : kHard)
+                           : is_silhouette && !is_again ? kSilhouette
+                                                        : kHidden;
+    bits[i / 4] = static_cast<uint8_t>(bits[i / 4] | value << (2 * (i % 4)));
+  }
+  std::vector<uint16_t> strings;
+  for (uint32_t y = 0; y <= kSize; ++y) strings.push_back(static_cast<uint16_t>(y * kRow + 3));
+  strings.push_back(kRestart);
+  for (uint32_t y = 0; y <= kSize; ++y) strings.push_back(static_cast<uint16_t>(y * kRow + 9));
+  primitive["extensions"]["EXT_mesh_primitive_edge_visibility"] = {
+      {"visibility", builder.addAccessor(bits, kUnsignedByte, "SCALAR", bits.size())},
+      {"silhouetteMates", builder.addIndices(mates)},
+      {"lineStrings", {{{"indices", builder.addIndices(strings)}}}}};
+  builder.json["extensionsUsed"].push_back("EXT_mesh_primitive_edge_visibility");
+}
+
+Builder withVisibleEdges(Json& primitive) {
+  Builder builder;
+  primitive = Sheet(kSize).addTo(builder);
+  addVisibility(builder, primitive);
+  builder.addMesh({primitive});
+  return builder;
+}
+
+TEST(MeshExtensions, TheSameEdgesAreVisible) {
+  for (const ConvertOptions& options : exactAndRounded()) {
+    Json primitive;
+    const Builder builder = withVisibleEdges(primitive);
+    const RoundTrip trip = roundTrip(builder, options);
+    ASSERT_EQ(trip.error, "");
+    ASSERT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
+    const VisibleEdges source = visibleEdgesIn(trip.source, primitive);
+    EXPECT_EQ(source.mates.size(), kSize * kSize);
+    EXPECT_EQ(source.line_strings.at(0).size(), 2 * kRow + 1);
+    EXPECT_TRUE(visibleEdgesIn(trip.decoded, primitive) == source);
+    EXPECT_EQ(jsonOf(trip.decoded)["meshes"], builder.json["meshes"]);
+  }
+}
+
+/// The triangles of strips and of vertices without indices have other numbers as lists.
+TEST(MeshExtensions, VisibleEdgesOfStripsStayAsTheyWere) {
+  for (const bool has_indices : {true, false}) {
+    Builder builder;
+    Json primitive = Sheet(kSize).addTo(builder);
+    addVisibility(builder, primitive);
+    primitive["mode"] = has_indices ? 5 : 4;
+    if (!has_indices) primitive.erase("indices");
+    builder.addMesh({primitive});
+    builder.addMesh({Sheet(24).addTo(builder)});
+    const RoundTrip trip = roundTrip(builder);
+    ASSERT_EQ(trip.error, "");
+    EXPECT_FALSE(isCompressed(jsonOf(trip.converted), 0, 0));
+    EXPECT_TRUE(hasNote(trip.report, "EXT_mesh_primitive_edge_visibility"));
+    for (uint32_t i = 0; i < 7; ++i) {
+      EXPECT_EQ(elementsInOrder(trip.decoded, i), elementsInOrder(trip.source, i));
+    }
+  }
+}
+
+std::vector<Edge> outlineIn(const std::vector<uint8_t>& file, const Json& primitive) {
+  const std::vector<Place> places = placesOf(file, primitive["attributes"]["POSITION"]);
+  const std::vector<uint32_t> ends =
+      numbersOf(file, primitive["extensions"]["CESIUM_primitive_outline"]["indices"]);
+  std::vector<Edge> edges;
+  for (size_t i = 0; i < ends.size(); i += 2) {
+    edges.push_back(edgeOf(places.at(ends[i]), places.at(ends[i + 1])));
+  }
+  return edges;
+}
+
+/// Vertices get other numbers, and the outline is the same. Not so where edges of triangles are
+/// visible, too: they need every order.
+TEST(MeshExtensions, OutlinesAreDrawnAsBefore) {
+  for (const bool has_visible_edges : {false, true}) {
+    for (const ConvertOptions& options : exactAndRounded()) {
+      Builder builder;
+      Json primitive = Sheet(kSize).addTo(builder);
+      std::vector<uint16_t> ends;
+      for (uint16_t i = 0; i < kSize; ++i) {
+        ends.insert(ends.end(), {i, static_cast<uint16_t>(i + 1), static_cast<uint16_t>(i * kRow),
+                                 static_cast<uint16_t>((i + 1) * kRow)});
+      }
+      primitive["extensions"]["CESIUM_primitive_outline"]["indices"] = builder.addIndices(ends);
+      builder.json["extensionsUsed"] = {"CESIUM_primitive_outline"};
+      if (has_visible_edges) addVisibility(builder, primitive);
+      builder.addMesh({primitive});
+      const RoundTrip trip = roundTrip(builder, options);
+      ASSERT_EQ(trip.error, "");
+      ASSERT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
+      EXPECT_EQ(keepsVertexOrder(trip, primitive), has_visible_edges);
+      EXPECT_EQ(outlineIn(trip.decoded, primitive), outlineIn(trip.source, primitive));
+      if (!has_visible_edges) continue;
+      EXPECT_TRUE(visibleEdgesIn(trip.decoded, primitive) ==
+                  visibleEdgesIn(trip.source, primitive));
+    }
+  }
+}
+
 // ---- All of them
 
 TEST(MeshExtensions, ValidatorHasNoObjection) {
@@ -367,6 +520,9 @@ TEST(MeshExtensions, ValidatorHasNoObjection) {
   const RoundTrip restart = roundTrip(RestartDocument().builder);
   const RoundTrip manifold = roundTrip(ManifoldDocument().builder);
   validator.add("manifold", manifold.source, manifold.converted, manifold.decoded);
+  Json primitive;
+  const RoundTrip edges = roundTrip(withVisibleEdges(primitive));
+  validator.add("edges", edges.source, edges.converted, edges.decoded);
   validator.add("restart", restart.source, restart.converted, restart.decoded);
   EXPECT_TRUE(validator.run()) << "the lines above name what is new";
 }
