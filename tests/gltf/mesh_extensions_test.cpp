@@ -6,41 +6,16 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 #include <map>
 #include <set>
 
+#include "gltf/places.h"
 #include "gltf/round_trip.h"
 #include "support/scratch_folder.h"
 #include "support/validator.h"
 
 namespace mcc::gltf::test {
 namespace {
-
-constexpr uint32_t kSize = 20;
-constexpr uint32_t kRow = kSize + 1;
-
-/// A vertex of a sheet by its row and column, which no rounding of its position changes.
-using Place = std::array<long, 2>;
-using Triangle = std::array<Place, 3>;
-
-std::vector<Place> placesOf(const std::vector<uint8_t>& file, uint32_t positions) {
-  const std::vector<float> values = floatsInOrder(file, positions);
-  std::vector<Place> places;
-  for (size_t i = 0; i < values.size(); i += 3) {
-    places.push_back({std::lround(values[i] * kSize), std::lround(values[i + 1] * kSize)});
-  }
-  return places;
-}
-
-std::vector<uint32_t> numbersOf(const std::vector<uint8_t>& file, uint32_t accessor) {
-  std::vector<uint32_t> numbers;
-  for (const std::string& element : elementsInOrder(file, accessor)) {
-    numbers.push_back(0);
-    std::memcpy(&numbers.back(), element.data(), element.size());
-  }
-  return numbers;
-}
 
 /// Turns a triangle so that it begins with its least place.
 Triangle turned(const Triangle& triangle) {
@@ -67,8 +42,6 @@ bool keepsVertexOrder(const RoundTrip& trip, const Json& primitive) {
   const uint32_t positions = primitive["attributes"]["POSITION"];
   return placesOf(trip.source, positions) == placesOf(trip.decoded, positions);
 }
-
-std::vector<ConvertOptions> exactAndRounded() { return {lossless(), ConvertOptions{}}; }
 
 // ---- EXT_mesh_primitive_restart
 
