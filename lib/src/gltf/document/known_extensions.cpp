@@ -162,6 +162,10 @@ constexpr KnownExtension kKnownExtensions[] = {
     {"EXT_texture_webp"},
     {"KHR_animation_pointer", always, never, kNamesNodes},
     {"KHR_draco_mesh_compression", always, always},  // removed with the data that it describes
+    {"KHR_gaussian_splatting",
+     [](const Json& object) {
+       return hasOnlyWithExtras(object, {"kernel", "colorSpace", "projection", "sortingMethod"});
+     }},
     {"KHR_lights_punctual"},
     {"KHR_materials_variants", always, always},         // materials of the whole primitive
     {"KHR_mesh_collapse_compression", always, always},  // our own
