@@ -485,6 +485,33 @@ TEST(MeshExtensions, OutlinesAreDrawnAsBefore) {
 
 // ---- All of them
 
+/// Whatever stands where objects and numbers of accessors should, it converts, and the result says
+/// the same.
+TEST(MeshExtensions, StrangeObjectsStayAsTheyWere) {
+  for (const char* name : {"EXT_mesh_manifold", "EXT_mesh_primitive_restart"}) {
+    for (const char* object :
+         {"null", "7", "[]", R"("x")", R"({"manifoldPrimitive":7,"primitiveGroups":7})",
+          R"({"manifoldPrimitive":{"attributes":[1],"indices":-1},"mergeIndices":1e99})",
+          R"({"manifoldPrimitive":{"attributes":{"POSITION":"0"},"indices":99}})",
+          R"({"manifoldPrimitive":{"attributes":{"POSITION":{}},"indices":[]}})",
+          R"({"primitiveGroups":[{"primitives":[0,0,4294967296,1e99],"indices":{}}]})",
+          R"({"primitiveGroups":[null,{"primitives":{"0":0},"indices":99}]})"}) {
+      SCOPED_TRACE(std::string(name) + " " + object);
+      Builder builder;
+      builder.addMesh({Sheet(kSize).addTo(builder)});
+      builder.addMesh({Sheet(24).addTo(builder)});
+      Json& extension = builder.json["meshes"][0]["extensions"][name];
+      ASSERT_TRUE(parseJson(asBytes(object), extension).ok());
+      builder.json["extensionsUsed"] = {name};
+      const RoundTrip trip = roundTrip(builder);
+      ASSERT_EQ(trip.error, "");
+      EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 1, 0));
+      EXPECT_EQ(jsonOf(trip.decoded)["meshes"][0]["extensions"],
+                builder.json["meshes"][0]["extensions"]);
+    }
+  }
+}
+
 TEST(MeshExtensions, ValidatorHasNoObjection) {
   const std::string missing = mcc::test::Validator::whyNot();
   if (!missing.empty()) GTEST_SKIP() << missing;
