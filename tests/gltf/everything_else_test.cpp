@@ -340,21 +340,5 @@ TEST(EverythingElse, PropertyTablesKeepTheirViews) {
   }
 }
 
-TEST(EverythingElse, ManifoldMeshesAreLeftAlone) {
-  Builder builder;
-  const Json sheet = Sheet(20).addTo(builder);
-  builder.addMesh({sheet});
-  builder.addMesh({Sheet(24).addTo(builder)});
-  builder.json["extensionsUsed"] = {"EXT_mesh_manifold"};
-  builder.json["meshes"][0]["extensions"]["EXT_mesh_manifold"]["manifoldPrimitive"] = {
-      {"indices", sheet["indices"]},
-      {"attributes", {{"POSITION", sheet["attributes"]["POSITION"]}}}};
-  const RoundTrip trip = roundTrip(builder);
-  ASSERT_EQ(trip.error, "");
-  EXPECT_FALSE(isCompressed(jsonOf(trip.converted), 0, 0));
-  EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 1, 0));
-  EXPECT_TRUE(hasNote(trip.report, "EXT_mesh_manifold"));
-}
-
 }  // namespace
 }  // namespace mcc::gltf::test

@@ -239,60 +239,13 @@ TEST(KnownExtensions, InstancesKeepTheirIds) {
   EXPECT_EQ(jsonOf(decoded)["nodes"], builder.json["nodes"]);
 }
 
-/// A sheet whose edges are visible in many ways, with all accessors of the extension.
-Builder visibleEdges(Json& primitive) {
-  Builder builder;
-  const Sheet sheet(20);
-  primitive = sheet.addTo(builder);
-  std::vector<uint8_t> bits((6 * (sheet.indices.size() / 3) + 7) / 8);
-  for (size_t i = 0; i < bits.size(); ++i) bits[i] = static_cast<uint8_t>(i * 37);
-  const uint32_t visibility = builder.addAccessor(bits, kUnsignedByte, "SCALAR", bits.size());
-  primitive["extensions"]["EXT_mesh_primitive_edge_visibility"] = {
-      {"visibility", visibility},
-      {"silhouetteMates", builder.addIndices({5, 9, 440, 17})},
-      {"lineStrings", {{{"indices", builder.addIndices({0, 1, 2, 65535, 21, 22, 43})}}}}};
-  builder.addMesh({primitive});
-  builder.json["extensionsUsed"] = {"EXT_mesh_primitive_edge_visibility"};
-  return builder;
-}
-
-/// The bits of an edge belong to a triangle by its number, and to its corners by their order.
-TEST(KnownExtensions, VisibleEdgesKeepEveryOrder) {
-  for (const bool is_lossless : {true, false}) {
-    Json primitive;
-    const Builder builder = visibleEdges(primitive);
-    const RoundTrip trip = roundTrip(builder, is_lossless ? lossless() : ConvertOptions{});
-    ASSERT_EQ(trip.error, "");
-    ASSERT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
-    EXPECT_EQ(elementsInOrder(trip.source, primitive["indices"]),
-              elementsInOrder(trip.decoded, primitive["indices"]));
-    const std::vector<float> source =
-        floatsInOrder(trip.source, primitive["attributes"]["POSITION"]);
-    const std::vector<float> decoded =
-        floatsInOrder(trip.decoded, primitive["attributes"]["POSITION"]);
-    ASSERT_EQ(source.size(), decoded.size());
-    for (size_t i = 0; i < source.size(); ++i) {
-      EXPECT_NEAR(source[i], decoded[i], is_lossless ? 0 : 0.0001);
-    }
-    const Json json = jsonOf(trip.decoded)["meshes"][0]["primitives"][0]["extensions"];
-    EXPECT_EQ(json, primitive["extensions"]);
-    for (uint32_t i = 4; i < builder.json["accessors"].size(); ++i) {
-      EXPECT_EQ(elementsInOrder(trip.source, i), elementsInOrder(trip.converted, i)) << i;
-      EXPECT_EQ(elementsInOrder(trip.source, i), elementsInOrder(trip.decoded, i)) << i;
-    }
-  }
-}
-
 TEST(KnownExtensions, ValidatorHasNoObjection) {
   const std::string missing = mcc::test::Validator::whyNot();
   if (!missing.empty()) GTEST_SKIP() << missing;
   const mcc::test::ScratchFolder folder;
   mcc::test::Validator validator(folder.path());
-  Json primitive;
   const RoundTrip table = roundTrip(buildingWithTable(false, 5));
-  const RoundTrip edges = roundTrip(visibleEdges(primitive));
   validator.add("table", table.source, table.converted, table.decoded);
-  validator.add("edges", edges.source, edges.converted, edges.decoded);
   EXPECT_TRUE(validator.run()) << "the lines above name what is new";
 }
 

@@ -7,6 +7,7 @@ import { encodeGlb } from '../../../lib/web/encoder.mjs';
 import { createDecoderPool } from '../../../lib/web/index.mjs';
 import { registerMeshCollapse } from '../../../lib/web/babylon.mjs';
 import { KHRMeshCollapseCompression, meshCollapse } from '../../../lib/web/gltf-transform.mjs';
+import * as forLoadersGl from '../../../lib/web/loaders_gl.mjs';
 import { MeshCollapsePlugin, preload, registerMeshCollapse as registerWithThree } from '../../../lib/web/three.mjs';
 
 // What @types/three says of plugins of GLTFLoader.
@@ -28,6 +29,14 @@ export const loader: { load(): void } = registerWithThree({ load() {} }, { limit
 
 registerMeshCollapse();
 registerMeshCollapse({ decode: pool.decodePayload });
+
+// What an extension is in @loaders.gl/gltf, which does not export the type.
+interface GLTFExtension {
+  name: string;
+  preprocess?: (gltfData: { json: object; buffers: any[] }, options: { gltf?: object }, context: object) => Promise<void> | void;
+  decode?: (gltfData: { json: object; buffers: any[] }, options: { gltf?: object }, context: object) => Promise<void>;
+}
+export const extensions: GLTFExtension[] = [forLoadersGl, forLoadersGl.meshCollapse({ decode: pool.decodePayload })];
 
 const io = new NodeIO().registerExtensions([KHRMeshCollapseCompression]);
 export async function write(document: Document): Promise<number> {

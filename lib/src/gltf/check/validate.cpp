@@ -11,6 +11,7 @@
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/accessors.h"
 #include "gltf/document/issues.h"
+#include "gltf/document/known_extensions.h"
 #include "gltf/document/package.h"
 #include "gltf/document/payload.h"
 #include "gltf/document/references.h"
@@ -210,8 +211,7 @@ class Validator {
   }
 
   void checkManifold(const ExtensionUse& use, const PayloadInfo& info) {
-    const Json* extensions = findMember(meshes_[use.mesh], "extensions");
-    if (extensions == nullptr || findMember(*extensions, "EXT_mesh_manifold") == nullptr) return;
+    if (!isManifold(meshes_[use.mesh])) return;
     if (use.piece >= info.pieces.size()) return;
     const PieceInfo& piece = info.pieces[use.piece];
     if (piece.keeps_vertex_order && piece.keeps_triangle_order) return;

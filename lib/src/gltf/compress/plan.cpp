@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "base/crc32.h"
+#include "gltf/document/known_extensions.h"
 #include "gltf/document/references.h"
 #include "host/text.h"
 #include "mesh/face_mesh.h"
@@ -33,14 +34,12 @@ class Planner {
 
   Result run() {
     const Json& meshes = arrayOf(document_.json, "meshes");
-    std::string mesh_part;
+    MeshExtensions mesh;
     for (const Primitive& primitive : document_.primitives) {
       const PrimitiveRef& ref = primitive.ref;
       if (!primitive.json->is_object()) return error(ref.path(), "must be an object");
-      if (ref.primitive == 0) {
-        mesh_part = nameInNote(orderDependentPart(meshes[ref.mesh], NumbersOfVertices::kStay));
-      }
-      const std::string note = planPrimitive(primitive, mesh_part);
+      if (ref.primitive == 0) mesh = extensionsOf(meshes[ref.mesh]);
+      const std::string note = planPrimitive(primitive, mesh);
       const bool is_ours = extensionOf(*primitive.json, kExtensionName) != nullptr;
       if (!note.empty()) left_alone_.push_back({ref, note + (is_ours ? "" : "; left as it was")});
     }
@@ -48,6 +47,13 @@ class Planner {
   }
 
  private:
+  /// What the extensions of a mesh demand of its primitives.
+  struct MeshExtensions {
+    std::string order_part;  ///< what depends on the order of their elements, or empty
+    bool is_manifold = false;
+    std::set<uint64_t> grouped;  ///< those that EXT_mesh_primitive_restart draws together
+  };
+
   /// A triangle list of a piece, identified by its index accessor and mode.
   struct KnownPart {
     std::string note;   ///< why it cannot be coded
@@ -70,6 +76,17 @@ class Planner {
   /// Shortens a name that the notes of many primitives may repeat.
   static std::string nameInNote(const std::string& name) { return shortened(name, 100); }
 
+  static MeshExtensions extensionsOf(const Json& mesh) {
+    MeshExtensions result;
+    result.order_part = nameInNote(orderDependentPart(mesh, NumbersOfVertices::kStay));
+    result.is_manifold = isManifold(mesh);
+    visitGroupedPrimitives(mesh, [&](const Json& number) {
+      uint64_t primitive = 0;
+      if (asUnsigned(number, primitive)) result.grouped.insert(primitive);
+    });
+    return result;
+  }
+
   /// Returns what is wrong with a primitive. Its place begins at the primitive.
   static std::string noteOf(const Result& result) {
     const std::string message = result.message();
@@ -78,7 +95,7 @@ class Planner {
   }
 
   /// Adds a primitive to the plan, or returns why it stays as it was.
-  std::string planPrimitive(const Primitive& primitive, const std::string& mesh_part) {
+  std::string planPrimitive(const Primitive& primitive, const MeshExtensions& mesh) {
     const Json& json = *primitive.json;
     uint64_t mode = 4;
     const Result has_mode = readOptionalUnsigned(json, "mode", "", kNone, mode);
@@ -87,11 +104,11 @@ class Planner {
     if (mode > 6) return "has the mode " + std::to_string(mode) + ", which is unknown";
     const Json* extensions = findMember(json, "extensions");
     if (extensions != nullptr && !extensions->is_object()) return "extensions: must be an object";
-    std::string note = extensionNote(json, mesh_part);
+    std::string note = extensionNote(primitive, mesh);
     if (!note.empty()) return note;
     const std::string own_part =
         nameInNote(orderDependentPart(json, NumbersOfVertices::kCanChange));
-    const std::string& unknown = own_part.empty() ? mesh_part : own_part;
+    const std::string& unknown = own_part.empty() ? mesh.order_part : own_part;
 
     if (!primitive.fault.ok()) return noteOf(primitive.fault);
     PiecePlan piece = pieceOf(primitive);
@@ -123,11 +140,14 @@ class Planner {
     return "";
   }
 
-  static std::string extensionNote(const Json& json, const std::string& mesh_part) {
-    if (mesh_part == "EXT_mesh_manifold") {  // it shares the bytes of the primitives' indices
+  static std::string extensionNote(const Primitive& primitive, const MeshExtensions& mesh) {
+    if (mesh.is_manifold) {  // the extension shares the bytes of the primitives' indices
       return "belongs to a mesh with EXT_mesh_manifold";
     }
-    return extensionOf(json, kExtensionName) == nullptr ? "" : "is compressed already";
+    if (mesh.grouped.contains(primitive.ref.primitive)) {  // the same, and no list of triangles
+      return "belongs to a group of EXT_mesh_primitive_restart";
+    }
+    return extensionOf(*primitive.json, kExtensionName) == nullptr ? "" : "is compressed already";
   }
 
   /// Returns why an accessor cannot be read, or may mean something else than what can be read.

@@ -456,6 +456,9 @@ class UseFinder {
       addUses(primitive);
       ++ref.primitive;
     }
+    visitMeshExtensionAccessors(mesh, [&](const Json& number) {
+      if (Accessor* accessor = accessorOf(&number)) ++accessor->extension_uses;
+    });
   }
 
   void addUses(const Primitive& primitive) {

@@ -90,7 +90,7 @@ struct Accessor {
   Result fault;
   // Who names it.
   uint32_t primitive_uses = 0;  ///< attributes, morph targets and indices of primitives
-  uint32_t extension_uses = 0;  ///< members of the extensions of primitives
+  uint32_t extension_uses = 0;  ///< members of the extensions of meshes and primitives
   bool is_filled = false;       ///< a payload of ours fills it
   bool is_in_scene = false;     ///< a skin, an animation or instances of a node
   bool is_foreign = false;      ///< perhaps something that we do not understand

@@ -11,6 +11,8 @@ namespace {
 
 /// The extension whose property tables lie in buffer views.
 constexpr char kMetadataExtension[] = "EXT_structural_metadata";
+constexpr char kManifoldExtension[] = "EXT_mesh_manifold";
+constexpr char kRestartExtension[] = "EXT_mesh_primitive_restart";
 
 using Names = std::initializer_list<std::string_view>;
 
@@ -59,6 +61,22 @@ bool areLineStringsUnderstood(const Json& visibility) {
   if (!strings->is_array()) return false;
   return std::all_of(strings->begin(), strings->end(), [](const Json& line_string) {
     return hasOnlyWithExtras(line_string, {"indices", "material"});
+  });
+}
+
+/// Whether these are groups of primitives that are named by numbers. Nothing else in their mesh
+/// depends on an order.
+bool areGroups(const Json& restart) {
+  if (!hasOnlyWithExtras(restart, {"primitiveGroups"})) return false;
+  const Json* groups = findMember(restart, "primitiveGroups");
+  if (groups == nullptr || !groups->is_array()) return false;
+  return std::all_of(groups->begin(), groups->end(), [](const Json& group) {
+    if (!hasOnlyWithExtras(group, {"primitives", "indices", "name"})) return false;
+    const Json* primitives = findMember(group, "primitives");
+    uint64_t number = 0;
+    return primitives != nullptr && primitives->is_array() &&
+           std::all_of(primitives->begin(), primitives->end(),
+                       [&](const Json& primitive) { return asUnsigned(primitive, number); });
   });
 }
 
@@ -115,12 +133,22 @@ constexpr KnownExtension kKnownExtensions[] = {
     {"EXT_lights_image_based"},
     {"EXT_mesh_features", hasOnlyFeatureIds, hasExplicitIds},
     {"EXT_mesh_gpu_instancing"},
+    {kManifoldExtension,
+     [](const Json& object) {
+       if (!hasOnlyWithExtras(object, {"manifoldPrimitive", "mergeIndices", "mergeValues"})) {
+         return false;
+       }
+       const Json* primitive = findMember(object, "manifoldPrimitive");
+       return primitive == nullptr ||
+              hasOnlyWithExtras(*primitive, {"attributes", "indices", "mode"});
+     }},
     {"EXT_mesh_primitive_edge_visibility",
      [](const Json& object) {
        return hasOnlyWithExtras(object, {"visibility", "material", "lineStrings", "silhouetteMates",
                                          "silhouetteNormals"}) &&
               areLineStringsUnderstood(object);
      }},
+    {kRestartExtension, areGroups, areGroups},
     {"EXT_meshopt_compression"},
     {kMetadataExtension,
      [](const Json& object) {
@@ -134,6 +162,10 @@ constexpr KnownExtension kKnownExtensions[] = {
     {"EXT_texture_webp"},
     {"KHR_animation_pointer", always, never, kNamesNodes},
     {"KHR_draco_mesh_compression", always, always},  // removed with the data that it describes
+    {"KHR_gaussian_splatting",
+     [](const Json& object) {
+       return hasOnlyWithExtras(object, {"kernel", "colorSpace", "projection", "sortingMethod"});
+     }},
     {"KHR_lights_punctual"},
     {"KHR_materials_variants", always, always},         // materials of the whole primitive
     {"KHR_mesh_collapse_compression", always, always},  // our own
@@ -246,6 +278,33 @@ void visitExtensionAccessors(const Json& primitive,
   for (const Json& line_string : arrayOf(*visibility, "lineStrings")) {
     const Json* number = findMember(line_string, "indices");
     if (number != nullptr) visit(*number, ExtensionAccessor::kOther);
+  }
+}
+
+void visitMeshExtensionAccessors(const Json& mesh, const std::function<void(const Json&)>& visit) {
+  const auto visitKey = [&](const Json* object, const char* key) {
+    if (const Json* number = member(object, key)) visit(*number);
+  };
+  if (const Json* restart = extensionOf(mesh, kRestartExtension)) {
+    for (const Json& group : arrayOf(*restart, "primitiveGroups")) visitKey(&group, "indices");
+  }
+  const Json* manifold = extensionOf(mesh, kManifoldExtension);
+  visitKey(manifold, "mergeIndices");
+  visitKey(manifold, "mergeValues");
+  const Json* primitive = member(manifold, "manifoldPrimitive");
+  visitKey(primitive, "indices");
+  const Json* attributes = member(primitive, "attributes");
+  if (attributes == nullptr || !attributes->is_object()) return;
+  for (const Json& number : *attributes) visit(number);
+}
+
+bool isManifold(const Json& mesh) { return extensionOf(mesh, kManifoldExtension) != nullptr; }
+
+void visitGroupedPrimitives(const Json& mesh, const std::function<void(const Json&)>& visit) {
+  const Json* restart = extensionOf(mesh, kRestartExtension);
+  if (restart == nullptr) return;
+  for (const Json& group : arrayOf(*restart, "primitiveGroups")) {
+    for (const Json& number : arrayOf(group, "primitives")) visit(number);
   }
 }
 

@@ -43,6 +43,18 @@ void visitExtensionAccessors(
     const Json& primitive,
     const std::function<void(const Json& number, ExtensionAccessor what)>& visit);
 
+/// Calls visit(number) for each accessor number in the extensions of a mesh itself.
+void visitMeshExtensionAccessors(const Json& mesh,
+                                 const std::function<void(const Json& number)>& visit);
+
+/// Whether a mesh has EXT_mesh_manifold, which describes all of its primitives once more, as one
+/// list of triangles over the same bytes.
+bool isManifold(const Json& mesh);
+
+/// Calls visit(number) for each primitive of a mesh that EXT_mesh_primitive_restart draws together
+/// with others. Such primitives share the bytes of their indices with their group.
+void visitGroupedPrimitives(const Json& mesh, const std::function<void(const Json& number)>& visit);
+
 /// Whether a document may have property tables.
 bool mayHaveTables(const Json& root);
 

@@ -126,6 +126,8 @@ class LayoutBuilder {
       }
       layout_.byte_count += view.byte_count;
     }
+    // EXT_structural_metadata demands that the BIN chunk of a GLB ends at a multiple of 8, too.
+    if (document_.foreign.has_tables) layout_.byte_count = (layout_.byte_count + 7) & ~uint64_t{7};
   }
 
   static uint64_t aligned(uint64_t offset) { return (offset + 3) & ~uint64_t{3}; }
