@@ -1,6 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "foreign/simplify.h"
 
+#include <algorithm>
 #include <span>
 
 #include <meshoptimizer.h>
@@ -21,14 +22,24 @@ std::vector<uint32_t> simplifyOnce(std::span<const float> positions,
   return simplified;
 }
 
-/// Returns the triangles with one vertex for each position: the first that has it.
-std::vector<uint32_t> weld(const gltf::TriangleList& list) {
+/// The same as if vertices with the same position were one. The others must be gone: the simplifier
+/// looks for seams at all vertices, used or not.
+std::vector<uint32_t> simplifyWelded(const gltf::TriangleList& list, uint64_t triangle_count) {
   const size_t vertex_count = list.positions.size() / 3;
-  std::vector<uint32_t> welded(list.triangles.size());
-  meshopt_generateShadowIndexBuffer(welded.data(), list.triangles.data(), list.triangles.size(),
-                                    list.positions.data(), vertex_count, kPositionBytes,
-                                    kPositionBytes);
-  return welded;
+  std::vector<uint32_t> number(vertex_count);
+  const size_t welded_count = meshopt_generateVertexRemap(
+      number.data(), nullptr, vertex_count, list.positions.data(), vertex_count, kPositionBytes);
+  std::vector<uint32_t> vertex_of(welded_count);
+  std::vector<float> positions(3 * welded_count);
+  for (size_t vertex = vertex_count; vertex-- != 0;) {  // the first one stays
+    vertex_of[number[vertex]] = static_cast<uint32_t>(vertex);
+    std::copy_n(&list.positions[3 * vertex], 3, &positions[size_t{3} * number[vertex]]);
+  }
+  std::vector<uint32_t> triangles;
+  for (const uint32_t vertex : list.triangles) triangles.push_back(number[vertex]);
+  std::vector<uint32_t> simplified = simplifyOnce(positions, triangles, triangle_count);
+  for (uint32_t& vertex : simplified) vertex = vertex_of[vertex];
+  return simplified;
 }
 
 }  // namespace
@@ -38,7 +49,7 @@ gltf::Result simplifyMesh(const gltf::TriangleList& list, uint64_t triangle_coun
   simplified = simplifyOnce(list.positions, list.triangles, triangle_count);
   // Vertices at seams hardly move. A mesh of flat triangles is nothing but seams.
   if (simplified.size() / 3 > 2 * triangle_count) {
-    simplified = simplifyOnce(list.positions, weld(list), triangle_count);
+    simplified = simplifyWelded(list, triangle_count);
   }
   return {};
 }

@@ -216,9 +216,9 @@ int ConvertCommand::runOne() const {
 }
 
 void addPreview(Command& command, gltf::ConvertOptions& options) {
-  Option& option = command.add("--preview", "[TRIANGLES]", &options.preview_triangles,
-                               "Put coarse versions of primitives of 100,000 triangles and more in "
-                               "front, for loaders to show first [2 %]");
+  Option& option =
+      command.add("--preview", "[TRIANGLES]", &options.preview_triangles,
+                  "Put coarse versions of large primitives in front, for loaders [2 %]");
   option.limits = between(0, gltf::kPreviewsByShare - 1);
   option.when_alone = "0";
   option.then = [&options]() {
