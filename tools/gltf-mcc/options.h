@@ -64,7 +64,7 @@ struct Option {
   /// What the value is when the name comes alone. The next word is the value if it is a number, and
   /// belongs to something else otherwise.
   std::string when_alone;
-  bool is_list = false;               ///< numbers are separated by commas
+  bool is_list = false;  ///< numbers are separated by commas
   bool is_required = false;
   bool is_hidden = false;  ///< help does not list it
 
