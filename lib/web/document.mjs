@@ -125,7 +125,8 @@ function readUse(json, { extension, primitive, path: primitivePath }) {
   return claim;
 }
 
-function checkView({ bufferViews }, number, path) {
+/** Checks that a buffer view can hold a payload. */
+export function checkView({ bufferViews }, number, path) {
   const view = bufferViews?.[number] ?? fail(path, `there is no bufferView ${number}`);
   const coder = Object.keys(view.extensions ?? {}).find((name) => /^(EXT|KHR)_meshopt_compression$/.test(name));
   if (coder !== undefined) fail(path, `bufferView ${number} is coded with ${coder}`);

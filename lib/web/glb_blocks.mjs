@@ -2,10 +2,11 @@
 //
 // Decodes the blocks of the payloads of a GLB while it is loaded.
 import { decodeBlocks as decodeHere } from './blocks.mjs';
-import { Budget, namedBytes, sum } from './budget.mjs';
+import { Budget, bytesOf, namedBytes, sum } from './budget.mjs';
 import { Chunks } from './chunks.mjs';
 import { payloadsOf } from './document.mjs';
 import { fail, inView, requireArgument } from './error.mjs';
+import { CheckOfPreview, previewsOf } from './previews.mjs';
 import { BIN_CHUNK, readGlb } from './unpack.mjs';
 import { usesOf } from './uses.mjs';
 
@@ -21,25 +22,40 @@ const MAX_JSON_BYTES = 2 ** 28;
  * @param {object} [options]  of decodeBlocks(); `decodeBlocks`: for instance that of a pool; `limits`: of each payload, and of all
  * of them together
  */
-export async function* decodeGlbBlocks(source, options) {
+export function decodeGlbBlocks(source, options) {
+  return blocksIn(source, options, { wantsPreviews: false, wantsBlocks: true });
+}
+
+/**
+ * The same for previews, for what they stand for, or for both. Blocks of previews come with `isPreview`, in the order in which everything is
+ * in the file.
+ */
+export async function* blocksIn(source, options, { wantsPreviews, wantsBlocks }) {
   const { decodeBlocks = decodeHere, limits, ...others } = options ?? {};
   requireArgument(typeof decodeBlocks === 'function', 'decodeBlocks must be a function');
   const chunks = new Chunks(source);
   try {
     const { json, fileBytes, binBytes } = await readBeginning(chunks);
     const begin = chunks.position;
-    const payloads = payloadsOf(json).map((payload) => ({ ...payload, ...placeOf(json, payload, binBytes) }))
-      .sort((a, b) => a.offset - b.offset);
+    const payloads = payloadsOf(json);
+    const previews = wantsPreviews ? previewsOf(json, payloads) : [];
+    const wanted = inPlace(json, [...(wantsBlocks ? payloads : []), ...previews], binBytes);
     const budget = new Budget(fileBytes, limits);
-    budget.add(sum(payloads.map(namedBytes)));
-    for (const payload of payloads) {
+    budget.add(sum(wanted.map(namedBytes)));
+    for (const payload of wanted) {
       await chunks.skip(begin + payload.offset - chunks.position);
       const { bufferView, claims, bytes: payloadBytes } = payload;
-      const uses = usesByPiece(claims);
+      const check = payload.expected && new CheckOfPreview(payload);
+      const uses = usesByPiece(payload.uses ?? usesOf(claims));
       const blocks = decodeBlocks(chunks, { ...others, ...budget.optionsFor(payload), payloadBytes });
       requireArgument(typeof blocks?.[Symbol.asyncIterator] === 'function', 'decodeBlocks must do what that of a pool does');
       try {
-        for await (const block of blocks) yield { ...block, bufferView, uses: uses.get(block.piece) ?? [] };
+        for await (const block of blocks) {
+          check?.add(block);
+          if (check) budget.add(bytesOf({ pieces: [block] })); // the document names none of them
+          yield { ...block, bufferView, uses: uses.get(block.piece) ?? [], ...(check && { isPreview: true }) };
+        }
+        check?.end();
       } catch (error) {
         throw inView(error, bufferView);
       }
@@ -49,9 +65,18 @@ export async function* decodeGlbBlocks(source, options) {
   }
 }
 
-function usesByPiece(claims) {
+/** Sorts payloads by their places in the file. */
+function inPlace(json, payloads, binBytes) {
+  const placed = payloads.map((payload) => ({ ...payload, ...placeOf(json, payload, binBytes) })).sort((a, b) => a.offset - b.offset);
+  placed.forEach(({ bufferView, offset }, i) => {
+    if (i > 0 && offset < placed[i - 1].offset + placed[i - 1].bytes) fail(`/bufferViews/${bufferView}`, 'overlaps another payload');
+  });
+  return placed;
+}
+
+function usesByPiece(list) {
   const uses = new Map();
-  for (const use of usesOf(claims)) {
+  for (const use of list) {
     if (!uses.has(use.piece)) uses.set(use.piece, []);
     uses.get(use.piece).push(use);
   }

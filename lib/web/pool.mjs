@@ -83,15 +83,17 @@ class DecoderPool {
     return this.#ownSource ?? pageSource();
   }
 
-  /** Starts a worker before it is needed. */
+  /** Starts a worker before it is needed. Returns whether that was possible. */
   async prepare() {
     const [slot] = this.#workers;
     const started = (slot.started ??= this.#start(slot));
     try {
       await started;
       if (slot.jobs === null) slot.worker?.unref?.();
+      return true;
     } catch (error) {
       if (slot.started === started) this.#lose(slot, error);
+      return false;
     }
   }
 

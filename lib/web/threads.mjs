@@ -14,7 +14,12 @@ let pool;
 let hasWorkers = typeof Worker !== 'undefined';
 const here = /* @__PURE__ */ new ShortTasks();
 
-const pagePool = () => (pool ??= createPool({}, { decodeGlued: async (...args) => (await rarelyNeeded()).decodeGlued(...args) }));
+const pagePool = () => (pool ??= createPool({}, {
+  decodeGlued: async (...args) => (await rarelyNeeded()).decodeGlued(...args),
+  async* blocksOf(...args) {
+    yield* (await rarelyNeeded()).blocksOf(...args);
+  },
+}));
 
 /**
  * Loads what decoding needs, and starts a worker, while the file is on its way. Plugins call it when they are registered; a page that knows
@@ -46,6 +51,16 @@ export async function decodeAnywhere(payload, { onBlock, ...others } = {}) {
     return decodeGlued(new OnThisThread(), payload, options);
   }
   return here.add(ms, () => decodeHere(payload, others));
+}
+
+/**
+ * Decodes the blocks of a payload in workers if there are any, else on this thread.
+ * @type {typeof import('./blocks.mjs').decodeBlocks}
+ */
+export async function* decodeBlocksAnywhere(source, options) {
+  const { blocksOf, OnThisThread } = await rarelyNeeded();
+  if (hasWorkers) hasWorkers = await pagePool().prepare();
+  yield* hasWorkers ? pagePool().decodeBlocks(source, options) : blocksOf(new OnThisThread(), source, options);
 }
 
 /** Loads that begin so soon after each other compete for the page's thread, which parses their files too. */

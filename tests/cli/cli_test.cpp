@@ -250,6 +250,24 @@ TEST_F(Cli, PreferenceIsApplied) {
   EXPECT_LT(bytes("genus3.glb", "balanced"), bytes("genus3.glb", "speed"));
 }
 
+TEST_F(Cli, PreviewMayHaveANumber) {
+  const auto optionOf = [&](const std::string& words) {
+    const Outcome result = run("convert " + words + " --format json --compare none");
+    EXPECT_EQ(result.status, 0) << result.err;
+    Json report;
+    EXPECT_TRUE(parseJson(asBytes(result.out), report).ok());
+    const Json* value = findMember(report["options"], "preview_triangles");
+    return value == nullptr ? "none" : printJson(*value);
+  };
+  EXPECT_EQ(optionOf("in.glb out.glb"), "none");
+  EXPECT_EQ(optionOf("--preview in.glb out.glb"), "\"2 %\"");
+  EXPECT_EQ(optionOf("in.glb out.glb --preview"), "\"2 %\"");
+  EXPECT_EQ(optionOf("in.glb --preview 5000 out.glb"), "5000");
+  EXPECT_EQ(optionOf("in.glb out.glb --preview=5000"), "5000");
+  EXPECT_EQ(run("convert in.glb out.glb --preview=many").status, 2);
+  EXPECT_EQ(run("convert in.glb out.glb --preview --indices-only").status, 2);
+}
+
 TEST_F(Cli, WrongUsageIsStatusTwo) {
   for (const char* arguments :
        {"", "frobnicate", "convert", "convert in.glb", "convert in.glb out.glb more.glb",

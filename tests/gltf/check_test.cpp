@@ -56,8 +56,7 @@ class Check : public testing::Test {
     std::vector<uint8_t> written;
     EXPECT_TRUE(writeGlb(printJson(json), bin, {}, written).ok());
     CheckResult result;
-    return checkConversion(source_, compressed_.payloads, {}, written, nullptr, 1, result)
-        .message();
+    return checkConversion(source_, compressed_, {}, written, nullptr, 1, result).message();
   }
   void expectVerdict(const std::string& words, const Json& json) {
     const std::string message = verdict(json, bin_);

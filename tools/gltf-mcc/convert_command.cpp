@@ -24,6 +24,7 @@
 
 #if defined(MCC_HAS_FOREIGN)
 #include "foreign/decoders.h"
+#include "foreign/simplify.h"
 #endif
 
 namespace mcc::tool {
@@ -214,6 +215,18 @@ int ConvertCommand::runOne() const {
   return printOut(text);
 }
 
+void addPreview(Command& command, gltf::ConvertOptions& options) {
+  Option& option =
+      command.add("--preview", "[TRIANGLES]", &options.preview_triangles,
+                  "Put coarse versions of large primitives in front, for loaders [2 %]");
+  option.limits = between(0, gltf::kPreviewsByShare - 1);
+  option.when_alone = "0";
+  option.then = [&options]() {
+    if (options.preview_triangles == 0) options.preview_triangles = gltf::kPreviewsByShare;
+  };
+  option.excludes = {"--indices-only"};
+}
+
 void addKeepOrder(Command& command, gltf::ConvertOptions& options) {
   command.addFlag("--indices-only", options.indices_only,
                   "Compress only the triangles, keep the attributes as they are");
@@ -233,12 +246,14 @@ void addConvert(Program& program) {
   auto state = std::make_shared<ConvertCommand>();
 #if defined(MCC_HAS_FOREIGN)
   state->convert.decoders = foreign::foreignDecoders();
+  state->convert.simplify = foreign::simplifyMesh;
 #endif
   command.name = "convert";
   command.summary = "Compress .glb and .gltf files";
   state->files.addOptions(command);
   addQuantization(command, state->convert);
   addKeepOrder(command, state->convert);
+  addPreview(command, state->convert);
   command.addFlag("--fallback", state->convert.fallback,
                   "Also keep the geometry uncompressed, in OUT.HASH.fallback.bin");
   command.add("--report", "FILE", &state->report, "Write all figures to this JSON file");

@@ -202,6 +202,9 @@ std::string summaryText(const Converted& converted) {
                  animationsText(after));
   lines.addBytes("the rest", before.other_bytes, after.other_bytes, "");
   lines.addBytes("file", report.input_bytes, report.output_bytes, brotliText(converted));
+  if (report.preview_bytes != 0) {
+    lines.add("preview", grouped(report.preview_bytes) + " bytes in front");
+  }
   if (report.fallback_bytes != 0) {
     lines.add("fallback", grouped(report.fallback_bytes) + " bytes in a second file");
   }

@@ -195,6 +195,17 @@ std::string wholePieces(const gltf::InspectReport& report) {
   return lines;
 }
 
+/// Says which payloads are shown only while the others are on their way.
+std::string previews(const gltf::InspectReport& report) {
+  std::string lines;
+  for (const auto& payload : report.payloads) {
+    if (!payload.is_preview) continue;
+    lines += fmt::format("\nbufferView {}: a preview of {}\n", payload.buffer_view,
+                         joined(payload.primitives));
+  }
+  return lines;
+}
+
 /// Counts how often each code occurs, in the columns of the paper's table 1.
 Table codeTable(const gltf::InspectReport& report, Format format) {
   uint32_t last_degree = 8;
@@ -282,6 +293,7 @@ struct InspectCommand {
     if (show_codes) return out + "\n" + codeTable(report, common.format).print(common.format);
     out += "\n" + streamTable(report, common.format).print(common.format);
     out += "\n" + attributeTable(report, common.format).print(common.format);
+    out += previews(report);
     out += wholePieces(report);
     if (!hasBlocks(report)) return out;
     return out + "\n" + blockTable(report, common.format).print(common.format);

@@ -61,7 +61,10 @@ struct Option {
   std::vector<std::string> excludes;  ///< names of options of the same command
   std::string needs;                  ///< the name of an option without which this one has no sense
   int count = 0;                      ///< numbers in one value; 0: as many as there are
-  bool is_list = false;               ///< numbers are separated by commas
+  /// What the value is when the name comes alone. The next word is the value if it is a number, and
+  /// belongs to something else otherwise.
+  std::string when_alone;
+  bool is_list = false;  ///< numbers are separated by commas
   bool is_required = false;
   bool is_hidden = false;  ///< help does not list it
 

@@ -194,6 +194,38 @@ const Command* chosenOf(const CLI::App& app, const Program& program) {
 
 }  // namespace
 
+namespace {
+
+/// Whether a word is the name of an option that may come alone, which has to get `value` then.
+bool mayComeAlone(const Program& program, const std::string& word, std::string& value) {
+  for (const Command& command : program.commands) {
+    for (const Option& option : command.options) {
+      if (option.when_alone.empty() || option.shownNames().back() != word) continue;
+      value = option.when_alone;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Gives options that come alone their values. CLI11 would take the next word, a file, for one.
+std::vector<std::string> withValues(const Program& program, const std::vector<std::string>& words) {
+  std::vector<std::string> all;
+  bool are_names = false;  // after "--"
+  for (size_t i = 0; i < words.size(); ++i) {
+    all.push_back(words[i]);
+    are_names |= words[i] == "--";
+    std::string value;
+    if (are_names || !mayComeAlone(program, words[i], value)) continue;
+    uint64_t number = 0;
+    const bool has_number = i + 1 < words.size() && CLI::detail::lexical_cast(words[i + 1], number);
+    if (!has_number) all.push_back(value);
+  }
+  return all;
+}
+
+}  // namespace
+
 Parsed parse(const Program& program, const std::vector<std::string>& words) {
   CLI::App app;
   app.allow_windows_style_options(false);  // "/models/a.glb" is a file there, too
@@ -204,8 +236,8 @@ Parsed parse(const Program& program, const std::vector<std::string>& words) {
   }
   Parsed parsed;
   try {
-    app.parse(
-        std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes the last first
+    const std::vector<std::string> all = withValues(program, words);
+    app.parse(std::vector<std::string>(all.rbegin(), all.rend()));  // CLI11 takes the last first
     parsed.command = chosenOf(app, program);
     return parsed;
   } catch (const CLI::CallForHelp&) {

@@ -83,6 +83,25 @@ struct ForeignDecoders {
   std::function<Result(const CodedMesh& coded, DecodedMesh& mesh)> mesh;
 };
 
+/// A list of triangles, to be simplified.
+struct TriangleList {
+  std::span<const float> positions;     ///< 3 for each vertex, from 0 to 1
+  std::span<const uint32_t> triangles;  ///< 3 vertices for each triangle; all exist
+};
+
+/// Simplifies a list of triangles for a preview: `simplified` becomes one on the same vertices with
+/// about `triangle_count` triangles, which is less than the list has. Vertices with the same
+/// position may have different attributes. Must not throw, must be deterministic, and may be called
+/// in parallel.
+using Simplify = std::function<Result(const TriangleList& list, uint64_t triangle_count,
+                                      std::vector<uint32_t>& simplified)>;
+
+/// Values of ConvertOptions::preview_triangles.
+inline constexpr uint32_t kNoPreviews = 0;
+inline constexpr uint32_t kPreviewsByShare = 0xffffffffu;  ///< 2 % of the triangles of a primitive
+/// Primitives with fewer triangles get no preview.
+inline constexpr uint32_t kMinPreviewedTriangles = 100000;
+
 /// How convertGlb() compresses.
 struct ConvertOptions : QuantizationBits {
   bool lossless = false;  ///< every float keeps every bit; all bits are ignored
@@ -120,6 +139,11 @@ struct ConvertOptions : QuantizationBits {
   Preference prefer = Preference::kBalanced;       ///< smaller payloads, or ones faster to decode
   uint32_t block_triangles = kBlocksByPreference;  ///< see EncodeOptions::block_triangles
   ForeignDecoders decoders;                        ///< for sources that other codecs compressed
+  /// Puts a coarse version of each large primitive in front of everything else, which loaders can
+  /// show while the rest is on its way. About how many triangles it has. Needs `simplify`, and
+  /// cannot be combined with indices_only.
+  uint32_t preview_triangles = kNoPreviews;
+  Simplify simplify;
   /// How much a compressed source may decode to, see decodedLimit(); 0: the default. All accessors
   /// that have no bytes in the file may take a 32nd of it together; primitives that would need more
   /// stay as they are.
@@ -185,6 +209,7 @@ struct PrimitiveReport {
   uint32_t payload = kNone;  ///< index into ConvertReport::payloads
   uint64_t triangle_count = 0;
   uint64_t wedge_count = 0;
+  uint64_t preview_triangle_count = 0;  ///< 0: it has no preview
   std::string note;  ///< why it was left uncompressed; empty when it was compressed
 };
 
@@ -212,6 +237,7 @@ struct ConvertReport {
   double decode_seconds = 0;  ///< of all payloads, added up over the threads
   double check_seconds = 0;   ///< for comparing what was decoded, and the written file
   std::vector<PayloadReport> payloads;
+  uint64_t preview_bytes = 0;               ///< of the payloads that hold previews
   std::vector<PrimitiveReport> primitives;  ///< all primitives of the file, in file order
   /// What the user may want to do something about: "/meshes/0/primitives/1: why".
   std::vector<std::string> notes;
@@ -296,6 +322,7 @@ struct InspectPayload {
   uint64_t tokens_bytes = 0;
   uint64_t raw_bits_bytes = 0;
   std::vector<std::string> primitives;  ///< JSON paths of the primitives that use it
+  bool is_preview = false;              ///< it holds nothing but previews of these primitives
   std::vector<InspectPiece> pieces;
   bool single_coder = false;
   bool has_codes = false;

@@ -228,7 +228,9 @@ void forgetPayloads(ConvertReport& report) {
   for (PrimitiveReport& primitive : report.primitives) {
     primitive.compressed = false;
     primitive.payload = kNone;
+    primitive.preview_triangle_count = 0;
   }
+  report.preview_bytes = 0;
 }
 
 void tell(const ConvertOptions& options, const char* stage) {
@@ -261,6 +263,9 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
   const Stopwatch proving;
   MCC_GLTF_TRY(
       provePayloads(document, options.thread_count, compressed.payloads, conversion.proofs));
+  std::vector<PayloadProof> proofs_of_previews;
+  MCC_GLTF_TRY(
+      provePayloads(document, options.thread_count, compressed.previews, proofs_of_previews));
   const double proof_seconds = proving.seconds();
   if (!compressed.payloads.empty()) storePayloads(document, compressed);
   report.notes.insert(report.notes.end(), compressed.notes.begin(), compressed.notes.end());
@@ -278,6 +283,7 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
                          package.documentBytes() >= document.source_bytes;
   if (compressed.payloads.empty() || is_larger) {
     compressed.payloads.clear();
+    compressed.previews.clear();
     MCC_GLTF_TRY(packageSource(document, input, output, package, report.notes, report.copied));
     forgetPayloads(report);
     report.fallback_bytes = 0;
@@ -310,8 +316,8 @@ Result checkOutput(Conversion& conversion, const ConvertOptions& options,
     tell(options, "checking");
     CheckResult checked;
     const std::vector<EncodedPayload>& payloads = conversion.compressed.payloads;
-    MCC_GLTF_TRY(checkConversion(conversion.document, payloads, options.decoders, stored, read_file,
-                                 options.thread_count, checked));
+    MCC_GLTF_TRY(checkConversion(conversion.document, conversion.compressed, options.decoders,
+                                 stored, read_file, options.thread_count, checked));
     if (checked.decoded_bytes > decodedLimit(0, report.output_bytes)) {
       report.notes.push_back(
           "its geometry decodes to " + std::to_string(checked.decoded_bytes) +
@@ -405,6 +411,13 @@ Status checkOptions(const ConvertOptions& options) {
     return fail(Error::kBadArgument,
                 "attributes that are not compressed keep all their vertices: unused ones can be "
                 "dropped only without indices_only");
+  }
+  if (options.preview_triangles != kNoPreviews && options.indices_only) {
+    return fail(Error::kBadArgument,
+                "a preview holds attributes, too: it can be made only without indices_only");
+  }
+  if (options.preview_triangles != kNoPreviews && !options.simplify) {
+    return fail(Error::kBadArgument, "previews need a function that simplifies: `simplify`");
   }
   return {};
 }

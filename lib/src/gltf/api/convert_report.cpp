@@ -64,8 +64,21 @@ void addPrimitives(const Document& document, const Compressed& compressed, Conve
     for (const PiecePlan& piece : compressed.payloads[i].plan.pieces) {
       for (const PartPlan& part : piece.parts) {
         for (const PrimitiveRef& user : part.users) {
-          known[user] = {
-              user.mesh, user.primitive, true, i, part.triangles.size() / 3, piece.wedge_count, ""};
+          PrimitiveReport& row = known[user];
+          row.compressed = true;
+          row.payload = i;
+          row.triangle_count = part.triangles.size() / 3;
+          row.wedge_count = piece.wedge_count;
+        }
+      }
+    }
+  }
+  for (const EncodedPayload& preview : compressed.previews) {
+    report.preview_bytes += preview.result.payload.size();
+    for (const PiecePlan& piece : preview.plan.pieces) {
+      for (const PartPlan& part : piece.parts) {
+        for (const PrimitiveRef& user : part.users) {
+          known[user].preview_triangle_count = part.triangles.size() / 3;
         }
       }
     }

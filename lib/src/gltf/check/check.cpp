@@ -24,8 +24,8 @@ bool areEqual(std::span<const uint8_t> a, std::span<const uint8_t> b) {
 
 class Checker {
  public:
-  Checker(const Document& source, const std::vector<EncodedPayload>& payloads, CheckResult& result)
-      : source_(source), payloads_(payloads), result_(result) {}
+  Checker(const Document& source, const Compressed& compressed, CheckResult& result)
+      : source_(source), compressed_(compressed), result_(result) {}
 
   Result run(const ForeignDecoders& decoders, std::span<const uint8_t> written,
              const FileReader& read_file, uint32_t thread_count) {
@@ -36,7 +36,8 @@ class Checker {
     result_.decoded_bytes = decoder.counts().bytes;
     MCC_GLTF_TRY(decodeViews(decoders, written_, &source_));
     for (const ExtensionUse& use : decoder.uses()) use_of_[{use.mesh, use.primitive}] = &use;
-    for (const EncodedPayload& payload : payloads_) MCC_GLTF_TRY(checkPayload(payload));
+    MCC_GLTF_TRY(checkPreviews());
+    for (const EncodedPayload& payload : compressed_.payloads) MCC_GLTF_TRY(checkPayload(payload));
     MCC_GLTF_TRY(checkOldUses());
     if (!use_of_.empty()) {
       return error("", "the compressed primitives are not those that were planned");
@@ -46,6 +47,44 @@ class Checker {
   }
 
  private:
+  /// Checks that the primitives have the previews that were proved, and no others.
+  Result checkPreviews() {
+    uint64_t count = 0;
+    for (const EncodedPayload& preview : compressed_.previews) {
+      is_payload_.clear();
+      for (size_t i = 0; i < preview.plan.pieces.size(); ++i) {
+        const std::vector<PartPlan>& parts = preview.plan.pieces[i].parts;
+        for (size_t k = 0; k < parts.size(); ++k) {
+          for (const PrimitiveRef& user : parts[k].users) {
+            MCC_GLTF_TRY(checkFailed(checkPreview(preview, i, k, user), user.path()));
+            ++count;
+          }
+        }
+      }
+    }
+    for (const auto& [ref, use] : use_of_) {
+      const bool is_old = extensionOf(*source_.primitive(ref).json, kExtensionName) != nullptr;
+      if (use->preview && !is_old) --count;
+    }
+    return count == 0 ? Result() : error("", "the previews are not those that were planned");
+  }
+
+  Result checkPreview(const EncodedPayload& preview, size_t piece, size_t part,
+                      const PrimitiveRef& ref) {
+    const auto found = use_of_.find(ref);
+    if (found == use_of_.end() || !found->second->preview) return error("", "has no preview");
+    const PartUse& use = *found->second->preview;
+    if (use.piece == piece && use.part == part && holds(use.view, preview)) return {};
+    return error("", "its preview is not the one that was compared");
+  }
+
+  /// Whether a view has the bytes of the payload that is being checked.
+  bool holds(uint32_t view, const EncodedPayload& payload) {
+    const auto [found, is_new] = is_payload_.try_emplace(view, false);
+    if (is_new) found->second = areEqual(payloadBytes(written_, view), payload.result.payload);
+    return found->second;
+  }
+
   Result checkPayload(const EncodedPayload& payload) {
     is_payload_.clear();
     for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
@@ -69,11 +108,7 @@ class Checker {
     if (found == use_of_.end()) return error("", "is not compressed, as it should be");
     const ExtensionUse& use = *found->second;
     use_of_.erase(found);
-    const auto [view, is_new] = is_payload_.try_emplace(use.view, false);
-    if (is_new) {
-      view->second = areEqual(payloadBytes(written_, use.view), payload.result.payload);
-    }
-    if (!view->second) {
+    if (!holds(use.view, payload)) {
       return error("", "the bytes of its payload are not those that were compared");
     }
     if (use.piece != piece_number || use.part != part_number) {
@@ -227,13 +262,19 @@ class Checker {
     for (const ExtensionUse& old : old_uses) {
       const auto use = use_of_.find({old.mesh, old.primitive});
       if (use == use_of_.end()) return error(old.path, "is lost");
-      const uint32_t view = use->second->view;
+      const auto isSame = [&](uint32_t old_view, uint32_t view) {
+        const auto [found, is_new] = is_same.try_emplace({old_view, view}, false);
+        if (is_new) {
+          found->second = areEqual(payloadBytes(source_, old_view), payloadBytes(written_, view));
+        }
+        return found->second;
+      };
+      const ExtensionUse& now = *use->second;
       use_of_.erase(use);
-      const auto [found, is_new] = is_same.try_emplace({old.view, view}, false);
-      if (is_new) {
-        found->second = areEqual(payloadBytes(source_, old.view), payloadBytes(written_, view));
-      }
-      if (!found->second) return error(old.path, "has another payload");
+      if (!isSame(old.view, now.view)) return error(old.path, "has another payload");
+      const bool has_same = old.preview.has_value() == now.preview.has_value() &&
+                            (!old.preview || isSame(old.preview->view, now.preview->view));
+      if (!has_same) return error(old.path, "has another preview");
     }
     return {};
   }
@@ -268,7 +309,7 @@ class Checker {
   }
 
   const Document& source_;
-  const std::vector<EncodedPayload>& payloads_;
+  const Compressed& compressed_;
   CheckResult& result_;
   Document written_;
   std::map<PrimitiveRef, const ExtensionUse*> use_of_;  ///< that were not checked yet
@@ -279,11 +320,11 @@ class Checker {
 
 }  // namespace
 
-Result checkConversion(const Document& source, const std::vector<EncodedPayload>& payloads,
+Result checkConversion(const Document& source, const Compressed& compressed,
                        const ForeignDecoders& decoders, std::span<const uint8_t> written,
                        const FileReader& read_file, uint32_t thread_count, CheckResult& result) {
   result = {};
-  Checker checker(source, payloads, result);
+  Checker checker(source, compressed, result);
   return checkFailed(checker.run(decoders, written, read_file, thread_count), "");
 }
 

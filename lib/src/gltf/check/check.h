@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "gltf/compress/compress.h"
-#include "gltf/compress/encode.h"
 #include "mcc/glb.h"
 
 namespace mcc::gltf {
@@ -27,12 +26,14 @@ struct CheckResult {
 ///   the source and have the same bytes;
 /// - elements next to payloads that moved with the vertices belong to the same ones;
 /// - accessors, images and JSON that are not compressed geometry are equal;
-/// - a fallback holds what the payloads do.
+/// - a fallback holds what the payloads do;
+/// - the previews are those of `compressed`, and their bytes those that were proved.
+/// compressed    what became of the source. Its JSON and layout are not read.
 /// decoders      decodes attributes next to payloads that another codec holds, before and after.
 /// read_file     fetches the files next to the written one; null: there are none.
 /// thread_count  the number of payloads decoded at the same time.
 /// Errors name the first difference.
-Result checkConversion(const Document& source, const std::vector<EncodedPayload>& payloads,
+Result checkConversion(const Document& source, const Compressed& compressed,
                        const ForeignDecoders& decoders, std::span<const uint8_t> written,
                        const FileReader& read_file, uint32_t thread_count, CheckResult& result);
 

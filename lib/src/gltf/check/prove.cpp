@@ -195,16 +195,26 @@ class Prover {
     return {};
   }
 
+  /// Returns what a part has to be. The source has no triangles of a preview, only its vertices.
+  Result expectedTriangles(const PiecePlan& piece, const PartPlan& part,
+                           std::vector<uint32_t>& expected) const {
+    if (payload_.plan.is_preview) {
+      for (const uint32_t vertex : part.triangles) expected.push_back(piece.kept[vertex]);
+      return {};
+    }
+    const uint64_t source_count = piece.kept.empty()
+                                      ? piece.wedge_count
+                                      : source_.accessors[piece.attributes[0].accessor].count;
+    return sourceTriangles(part.users[0], source_count, expected);
+  }
+
   Result provePart(const PiecePlan& piece, const PartPlan& part, std::span<const uint32_t> indices,
                    std::span<const uint32_t> source_of) const {
     for (const uint32_t index : indices) {
       if (index >= source_of.size()) return error("", "an index is out of range");
     }
     std::vector<uint32_t> expected;
-    const uint64_t source_count = piece.kept.empty()
-                                      ? piece.wedge_count
-                                      : source_.accessors[piece.attributes[0].accessor].count;
-    MCC_GLTF_TRY(sourceTriangles(part.users[0], source_count, expected));
+    MCC_GLTF_TRY(expectedTriangles(piece, part, expected));
     if (indices.size() != expected.size()) {
       return error("", "there are " + std::to_string(indices.size() / 3) +
                            " triangles, the source has " + std::to_string(expected.size() / 3));

@@ -53,20 +53,24 @@ class Validator {
     findExtensionUses(document_, issues_, uses_);
     report_.compressed_primitive_count = static_cast<uint32_t>(uses_.size());
     checkLists();
-    std::map<uint32_t, std::vector<const ExtensionUse*>> by_view;
+    std::map<uint32_t, size_t> uses_of_view;
+    const auto addView = [&](uint32_t view) {
+      if (view == kNone) return;
+      ++uses_of_view[view];
+      payload_buffers_.insert(document_.views[view].buffer);
+    };
     for (const ExtensionUse& use : uses_) {
       checkObject(use);
-      if (use.view == kNone) continue;
-      by_view[use.view].push_back(&use);
-      payload_buffers_.insert(document_.views[use.view].buffer);
+      addView(use.view);
+      if (use.preview) addView(use.preview->view);
     }
     const Json& views = arrayOf(document_.json, "bufferViews");
-    for (const auto& [view, ignored] : by_view) checkView(views, view);
-    checkOtherViewUses(by_view);
+    for (const auto& [view, ignored] : uses_of_view) checkView(views, view);
+    checkOtherViewUses(uses_of_view);
     const std::vector<PayloadUse> payloads = payloadUses(document_, uses_);
     report_.payload_count = static_cast<uint32_t>(payloads.size());
     if (issues_.passes(Rule::kPayloadView, checkPayloadLengths(document_, payloads))) {
-      for (const auto& [view, users] : payloads) checkPayload(view, users);
+      for (const PayloadUse& payload : payloads) checkPayload(payload);
     }
     // Reported once; payloads below the limit were checked.
     issues_.passes(Rule::kDecodedBytes, decoded_bytes_.check());
@@ -160,7 +164,7 @@ class Validator {
   }
 
   /// Checks that images, accessors and other primitives do not use the view of a payload.
-  void checkOtherViewUses(const std::map<uint32_t, std::vector<const ExtensionUse*>>& by_view) {
+  void checkOtherViewUses(const std::map<uint32_t, size_t>& uses_of_view) {
     std::map<uint32_t, size_t> counts;
     visitViewReferences(document_.json, [&](const Json& reference, uint32_t) {
       uint64_t view = 0;
@@ -168,8 +172,8 @@ class Validator {
         ++counts[static_cast<uint32_t>(view)];
       }
     });
-    for (const auto& [view, users] : by_view) {
-      if (counts[view] <= users.size()) continue;
+    for (const auto& [view, count] : uses_of_view) {
+      if (counts[view] <= count) continue;
       issues_.add(Rule::kSharedPayloadView, at("/bufferViews", view),
                   "holds a payload, but something else refers to it, too");
     }
@@ -177,10 +181,10 @@ class Validator {
 
   // ---- Payloads
 
-  void checkPayload(uint32_t view, const std::vector<const ExtensionUse*>& users) {
-    const std::string where = users[0]->path + "/bufferView";
+  void checkPayload(const PayloadUse& payload) {
+    const std::string where = payload.where();
     DecodedPayload decoded;
-    const Status opened = decoded.payload.open(payloadBytes(document_, view), limits_);
+    const Status opened = decoded.payload.open(payloadBytes(document_, payload.view), limits_);
     if (!opened.ok()) return issues_.addPayloadError(opened, where);
     const PayloadInfo& info = decoded.payload.info();
     if (info.version_minor > kVersionMinor) {
@@ -188,8 +192,25 @@ class Validator {
                   "the payload has version " + std::to_string(info.version_major) + "." +
                       std::to_string(info.version_minor) + "; what is new in it is not checked");
     }
+    const std::vector<const ExtensionUse*> sound = checkUsers(payload, info);
+    if (!issues_.hasErrors()) checkUse(payload, info, where);
+    decoded_bytes_.add(outputBytes(info));
+    if (!decoded_bytes_.check().ok()) return;
+    const Status status = decodePieces(decoded);
+    if (!status.ok()) return issues_.addPayloadError(status, where);
+    for (size_t i = 0; i < info.pieces.size() && !payload.users.empty(); ++i) {
+      report_.wedge_count += info.pieces[i].wedge_count;
+      for (const PartInfo& part : info.pieces[i].parts)
+        report_.triangle_count += part.triangle_count;
+    }
+    for (const ExtensionUse* use : sound) checkElements(*use, decoded.pieces[use->piece]);
+  }
+
+  /// Checks the primitives that use a payload, and those whose preview it holds. Returns the users
+  /// without an error.
+  std::vector<const ExtensionUse*> checkUsers(const PayloadUse& payload, const PayloadInfo& info) {
     std::vector<const ExtensionUse*> sound;
-    for (const ExtensionUse* use : users) {
+    for (const ExtensionUse* use : payload.users) {
       if (!use->has_numbers) continue;
       Issues own(std::numeric_limits<size_t>::max());
       checkAgainstPayload(document_, *use, info, own);
@@ -197,17 +218,10 @@ class Validator {
       issues_.append(own);
       checkManifold(*use, info);
     }
-    if (!issues_.hasErrors()) checkUse(users, info, where);
-    decoded_bytes_.add(outputBytes(info));
-    if (!decoded_bytes_.check().ok()) return;
-    const Status status = decodePieces(decoded);
-    if (!status.ok()) return issues_.addPayloadError(status, where);
-    for (size_t i = 0; i < info.pieces.size(); ++i) {
-      report_.wedge_count += info.pieces[i].wedge_count;
-      for (const PartInfo& part : info.pieces[i].parts)
-        report_.triangle_count += part.triangle_count;
+    for (const ExtensionUse* use : payload.previewed) {
+      if (use->preview->has_numbers) checkPreview(document_, *use, info, issues_);
     }
-    for (const ExtensionUse* use : sound) checkElements(*use, decoded.pieces[use->piece]);
+    return sound;
   }
 
   void checkManifold(const ExtensionUse& use, const PayloadInfo& info) {
@@ -221,19 +235,20 @@ class Validator {
   }
 
   /// Reports parts and attributes that no primitive names.
-  void checkUse(const std::vector<const ExtensionUse*>& users, const PayloadInfo& info,
-                const std::string& where) {
+  void checkUse(const PayloadUse& payload, const PayloadInfo& info, const std::string& where) {
     struct Used {
       std::set<uint64_t> parts, attributes;
     };
     std::vector<Used> used(info.pieces.size());
-    for (const ExtensionUse* use : users) {
-      if (use->piece >= used.size()) continue;
-      used[use->piece].parts.insert(use->part);
-      for (const auto& attribute : use->attributes) {
-        used[use->piece].attributes.insert(attribute.id);
+    const auto add = [&](const PartUse& part, const ExtensionUse& use) {
+      if (part.piece >= used.size()) return;
+      used[part.piece].parts.insert(part.part);
+      for (const auto& attribute : use.attributes) {
+        used[part.piece].attributes.insert(attribute.id);
       }
-    }
+    };
+    for (const ExtensionUse* use : payload.users) add(*use, *use);
+    for (const ExtensionUse* use : payload.previewed) add(*use->preview, *use);
     for (uint32_t p = 0; p < info.pieces.size(); ++p) {
       const std::string piece = "piece " + std::to_string(p) + " of the payload";
       const auto& [parts, attributes] = used[p];

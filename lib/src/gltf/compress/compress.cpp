@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "gltf/compress/preview.h"
 #include "gltf/compress/quantize.h"
 #include "gltf/compress/savings.h"
 #include "gltf/compress/vertices.h"
@@ -59,6 +60,13 @@ class Applier {
                           *accessors_, views);
       }
     }
+    for (const EncodedPayload& preview : compressed_.previews) {
+      const uint64_t view = kFirstNewView + views.size();
+      NewView& new_view = views.emplace_back();
+      new_view.borrow(preview.result.payload);
+      new_view.is_in_front = true;
+      namePreview(preview.plan, view);
+    }
     // addFallback() removes the requirement again.
     const bool uses_mesh_extension = usesMeshExtension();
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
@@ -92,6 +100,21 @@ class Applier {
         if (piece.parts[k].mode != 4) primitive["mode"] = 4;
         if (primitive.contains("extensions")) primitive["extensions"].erase(kMeshExtension);
         primitive["extensions"][kExtensionName] = extensionJson(view, number, piece, k);
+      }
+    }
+  }
+
+  void namePreview(const PayloadPlan& plan, uint64_t view) {
+    for (size_t i = 0; i < plan.pieces.size(); ++i) {
+      const std::vector<PartPlan>& parts = plan.pieces[i].parts;
+      for (size_t k = 0; k < parts.size(); ++k) {
+        Json preview = {{"bufferView", view}};
+        if (i != 0) preview["piece"] = i;
+        if (k != 0) preview["part"] = k;
+        for (const PrimitiveRef& user : parts[k].users) {
+          Json& primitive = (*meshes_)[user.mesh]["primitives"][user.primitive];
+          primitive["extensions"][kExtensionName]["preview"] = preview;
+        }
       }
     }
   }
@@ -211,6 +234,7 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
     dropLosers(document, compressed.payloads, compressed.left_alone);
   }
   sortByPlace(compressed.left_alone);
+  MCC_GLTF_TRY(makePreviews(options, compressed.payloads, compressed.previews, compressed.remarks));
   for (const EncodedPayload& payload : compressed.payloads) {
     for (const std::string& note : payload.result.notes) {
       compressed.notes.push_back(at("/meshes", payload.plan.mesh) + ": " + note);

@@ -19,6 +19,7 @@ namespace mcc::gltf {
 /// A compressed document before it is written.
 struct Compressed {
   std::vector<EncodedPayload> payloads;  ///< the payloads that are in the document
+  std::vector<EncodedPayload> previews;  ///< of some of their primitives
   std::vector<LeftAlone> left_alone;
   std::vector<std::string> notes;
   std::vector<std::string> remarks;  ///< see ConvertReport::remarks

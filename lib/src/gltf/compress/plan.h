@@ -71,6 +71,8 @@ struct PayloadPlan {
   bool keep_vertex_order = false;
   bool keep_triangle_order = false;
   bool indices_only = false;
+  /// Its parts are coarse versions of those of their users, and its vertices some of theirs.
+  bool is_preview = false;
 
   /// Whether the accessors of attributes get their elements in another order.
   bool reorders() const { return indices_only && !keep_vertex_order; }

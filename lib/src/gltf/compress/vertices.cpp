@@ -216,9 +216,6 @@ void renumberVertices(const Document& document, const PiecePlan& piece,
   }
 }
 
-namespace {
-
-/// Returns the vertices that a triangle uses, in ascending order.
 std::vector<uint32_t> usedVertices(const PiecePlan& piece) {
   std::vector<bool> is_used(piece.wedge_count, false);
   for (const PartPlan& part : piece.parts) {
@@ -250,10 +247,11 @@ void keepVertices(std::vector<uint32_t> kept, PiecePlan& piece) {
     source.count = kept.size();
   }
   piece.wedge_count = static_cast<uint32_t>(kept.size());
+  for (uint32_t& vertex : kept) {
+    if (!piece.kept.empty()) vertex = piece.kept[vertex];
+  }
   piece.kept = std::move(kept);
 }
-
-}  // namespace
 
 void planUnused(const ConvertOptions& options, std::vector<PayloadPlan>& payloads,
                 std::vector<std::string>& notes) {

@@ -46,6 +46,12 @@ void renumberVertices(const Document& document, const PiecePlan& piece,
 /// Whether decoded vertices have the numbers of the source.
 bool isIdentity(const std::vector<uint32_t>& source_wedge);
 
+/// Returns the vertices that a triangle of a piece uses, in ascending order.
+std::vector<uint32_t> usedVertices(const PiecePlan& piece);
+
+/// Leaves only these vertices, in ascending order, in a piece. Its triangles use no others.
+void keepVertices(std::vector<uint32_t> kept, PiecePlan& piece);
+
 /// Notes how many vertices of each mesh no triangle uses. With options.drop_unused they are removed
 /// from the pieces, except where something may refer to vertices by number. Linear in the vertices
 /// and triangles.

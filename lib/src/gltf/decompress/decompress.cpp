@@ -40,20 +40,19 @@ Result PayloadDecoder::open() {
 /// All counts must match the accessors before memory is taken for them.
 Result PayloadDecoder::openPayload(const PayloadUse& use) {
   OpenPayload& payload = payloads_.emplace_back();
-  payload.where = use.users[0]->path + "/bufferView";
+  payload.where = use.where();
   MCC_GLTF_TRY(toResult(payload.payload.open(payloadBytes(document_, use.view)), payload.where));
   const PayloadInfo& info = payload.payload.info();
-  for (const ExtensionUse* user : use.users) {
-    MCC_GLTF_TRY(checkAgainstPayload(document_, *user, info));
-  }
+  MCC_GLTF_TRY(checkAgainstPayload(document_, use, info));
   for (const PieceInfo& piece : info.pieces) {
     Piece& targets = payload.pieces.emplace_back();
     targets.attributes.resize(piece.attributes.size());
     targets.parts.resize(piece.parts.size());
+    if (use.users.empty()) continue;
     counts_.wedges += piece.wedge_count;
     for (const PartInfo& part : piece.parts) counts_.triangles += part.triangle_count;
   }
-  ++counts_.payloads;
+  if (!use.users.empty()) ++counts_.payloads;
   counts_.bytes += outputBytes(info);
   return {};
 }

@@ -25,7 +25,8 @@
 
 namespace mcc::gltf {
 
-/// All payloads of a document, and the buffer views that their elements become.
+/// All payloads of a document, and the buffer views that their elements become. Previews are
+/// decoded like the rest, since one that is damaged is an error, but fill no view.
 class PayloadDecoder {
  public:
   /// An accessor that a payload fills.
@@ -49,7 +50,7 @@ class PayloadDecoder {
   using Place = std::function<uint8_t*(size_t view)>;
   Result decode(uint32_t thread_count, const Place& place) const;
 
-  // What open() found.
+  // What open() found, apart from previews, of which only the bytes count.
   struct Counts {
     uint64_t payloads = 0;  ///< distinct ones
     uint64_t triangles = 0;

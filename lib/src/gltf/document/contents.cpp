@@ -78,7 +78,12 @@ class ContentsWalk {
       addAccessor(primitive.indices);
       for (const char* name : {kExtensionName, kMeshExtension}) {
         const Json* extension = extensionOf(*primitive.json, name);
-        if (extension != nullptr) addNumber(*extension, "bufferView", false);
+        if (extension == nullptr) continue;
+        addNumber(*extension, "bufferView", false);
+        // Only ours has previews.
+        if (const Json* preview = findMember(*extension, "preview")) {
+          addNumber(*preview, "bufferView", false);
+        }
       }
     }
   }

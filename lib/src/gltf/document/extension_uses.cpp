@@ -70,10 +70,10 @@ void readTargets(const Document& document, const Json& extension, const Json& pr
   }
 }
 
-void readView(const Document& document, const Json& extension, Issues& issues, ExtensionUse& use) {
+void readView(const Document& document, const Json& object, Issues& issues, PartUse& use) {
   uint64_t number = 0;
   if (!issues.passes(Rule::kSchema,
-                     readUnsigned(extension, "bufferView", use.path, kMaxNumber, number))) {
+                     readUnsigned(object, "bufferView", use.path, kMaxNumber, number))) {
     return;
   }
   const std::string path = use.path + "/bufferView";
@@ -90,6 +90,27 @@ void readView(const Document& document, const Json& extension, Issues& issues, E
   use.view = static_cast<uint32_t>(number);
 }
 
+/// Reads which part of which payload an object names, the extension object or a preview.
+void readPart(const Document& document, const Json& object, Issues& issues, PartUse& use) {
+  readView(document, object, issues, use);
+  const auto read = [&](const char* key, uint64_t& number) {
+    return issues.passes(Rule::kSchema,
+                         readOptionalUnsigned(object, key, use.path, kMaxNumber, number));
+  };
+  const bool has_piece = read("piece", use.piece);
+  use.has_numbers = read("part", use.part) && has_piece;
+}
+
+void readPreview(const Document& document, const Json& extension, Issues& issues,
+                 ExtensionUse& use) {
+  const Json* preview = findMember(extension, "preview");
+  if (preview == nullptr) return;
+  const std::string path = use.path + "/preview";
+  if (!preview->is_object()) return issues.add(Rule::kSchema, path, "must be an object");
+  use.preview.emplace().path = path;
+  readPart(document, *preview, issues, *use.preview);
+}
+
 void readExtension(const Document& document, const Json& extension, const Json& primitive,
                    Issues& issues, ExtensionUse& use) {
   const std::string primitive_path = primitivePath(use.mesh, use.primitive);
@@ -99,13 +120,7 @@ void readExtension(const Document& document, const Json& extension, const Json& 
     issues.add(Rule::kTwoCompressions, use.path,
                std::string("the primitive is compressed with ") + kMeshExtension + ", too");
   }
-  readView(document, extension, issues, use);
-  const auto read = [&](const char* key, uint64_t& number) {
-    return issues.passes(Rule::kSchema,
-                         readOptionalUnsigned(extension, key, use.path, kMaxNumber, number));
-  };
-  const bool has_piece = read("piece", use.piece);
-  use.has_numbers = read("part", use.part) && has_piece;
+  readPart(document, extension, issues, use);
   uint64_t mode = 4;
   if (issues.passes(Rule::kMode,
                     readOptionalUnsigned(primitive, "mode", primitive_path, 6, mode)) &&
@@ -124,6 +139,7 @@ void readExtension(const Document& document, const Json& extension, const Json& 
             primitive_path + "/attributes", kNone, issues, use);
   }
   readTargets(document, extension, primitive, issues, use);
+  readPreview(document, extension, issues, use);
 }
 
 /// Returns the attributes, or those of a morph target, that an extension object names. `extension`
@@ -206,14 +222,18 @@ class Sharing {
   std::map<uint32_t, Origin> origins_;
 };
 
+/// Checks that a piece has an attribute. `path` is the place in the JSON that says so.
+bool hasAttribute(uint64_t id, const std::string& path, const PieceInfo& piece, Issues& issues) {
+  if (id < piece.attributes.size()) return true;
+  issues.add(Rule::kAttributeNumber, path,
+             "there is no attribute " + std::to_string(id) + " in the payload's piece, which has " +
+                 std::to_string(piece.attributes.size()));
+  return false;
+}
+
 void checkAttribute(const Document& document, const ExtensionUse::AttributeUse& attribute,
                     const PieceInfo& piece, Issues& issues) {
-  if (attribute.id >= piece.attributes.size()) {
-    return issues.add(Rule::kAttributeNumber, attribute.path,
-                      "there is no attribute " + std::to_string(attribute.id) +
-                          " in the payload's piece, which has " +
-                          std::to_string(piece.attributes.size()));
-  }
+  if (!hasAttribute(attribute.id, attribute.path, piece, issues)) return;
   const Accessor& accessor = document.accessors[attribute.accessor];
   const std::string accessor_path = at("/accessors", attribute.accessor);
   if (accessor.count != piece.wedge_count) {
@@ -298,7 +318,7 @@ void checkOrdinaryAttributes(const Document& document, const ExtensionUse& use,
   });
 }
 
-void checkPart(const ExtensionUse& use, const PieceInfo& piece, Issues& issues) {
+void checkPart(const PartUse& use, const PieceInfo& piece, Issues& issues) {
   if (use.part >= piece.parts.size()) {
     issues.add(Rule::kPart, use.path + "/part",
                "there is no part " + std::to_string(use.part) + " in the piece, which has " +
@@ -308,6 +328,22 @@ void checkPart(const ExtensionUse& use, const PieceInfo& piece, Issues& issues) 
                "part " + std::to_string(use.part) +
                    " of the piece has no triangles, so no primitive may name it");
   }
+}
+
+/// Returns the piece of a use; null, with an issue, if there is none or it has no vertices.
+const PieceInfo* pieceOf(const PartUse& use, const PayloadInfo& info, Issues& issues) {
+  if (use.piece >= info.pieces.size()) {
+    issues.add(Rule::kPiece, use.path + "/piece",
+               "there is no piece " + std::to_string(use.piece) + " in the payload, which has " +
+                   std::to_string(info.pieces.size()));
+    return nullptr;
+  }
+  const PieceInfo& piece = info.pieces[use.piece];
+  if (piece.wedge_count != 0) return &piece;
+  issues.add(Rule::kPiece, use.path,
+             "piece " + std::to_string(use.piece) +
+                 " of the payload has no vertices, so no primitive may name it");
+  return nullptr;
 }
 
 }  // namespace
@@ -332,22 +368,31 @@ Result findExtensionUses(const Document& document, std::vector<ExtensionUse>& us
   return issues.first();
 }
 
+std::string PayloadUse::where() const {
+  const std::string& path = users.empty() ? previewed[0]->preview->path : users[0]->path;
+  return path + "/bufferView";
+}
+
 std::vector<PayloadUse> payloadUses(const Document& document,
                                     const std::vector<ExtensionUse>& uses) {
   using Range = std::tuple<uint32_t, uint64_t, uint64_t>;
-  std::map<uint32_t, std::vector<const ExtensionUse*>> by_view;
+  std::map<uint32_t, PayloadUse> by_view;
   for (const ExtensionUse& use : uses) {
-    if (use.view != kNone) by_view[use.view].push_back(&use);
+    if (use.view != kNone) by_view[use.view].users.push_back(&use);
+    if (use.preview && use.preview->view != kNone) {
+      by_view[use.preview->view].previewed.push_back(&use);
+    }
   }
   std::vector<PayloadUse> payloads;
   std::map<Range, size_t> by_range;
-  for (const auto& [number, users] : by_view) {
+  for (const auto& [number, of_view] : by_view) {
     const BufferView& view = document.views[number];
     const Range range = {view.buffer, view.offset, view.length};
     const auto [found, is_new] = by_range.try_emplace(range, payloads.size());
-    if (is_new) payloads.push_back({number, {}});
-    std::vector<const ExtensionUse*>& all = payloads[found->second].users;
-    all.insert(all.end(), users.begin(), users.end());
+    if (is_new) payloads.push_back({number, {}, {}});
+    PayloadUse& all = payloads[found->second];
+    all.users.insert(all.users.end(), of_view.users.begin(), of_view.users.end());
+    all.previewed.insert(all.previewed.end(), of_view.previewed.begin(), of_view.previewed.end());
   }
   return payloads;
 }
@@ -373,29 +418,47 @@ std::span<const uint8_t> payloadBytes(const Document& document, uint32_t view) {
 
 void checkAgainstPayload(const Document& document, const ExtensionUse& use, const PayloadInfo& info,
                          Issues& issues) {
-  if (use.piece >= info.pieces.size()) {
-    return issues.add(Rule::kPiece, use.path + "/piece",
-                      "there is no piece " + std::to_string(use.piece) +
-                          " in the payload, which has " + std::to_string(info.pieces.size()));
-  }
-  const PieceInfo& piece = info.pieces[use.piece];
-  if (piece.wedge_count == 0) {
-    return issues.add(Rule::kPiece, use.path,
-                      "piece " + std::to_string(use.piece) +
-                          " of the payload has no vertices, so no primitive may name it");
-  }
-  checkPart(use, piece, issues);
+  const PieceInfo* const piece = pieceOf(use, info, issues);
+  if (piece == nullptr) return;
+  checkPart(use, *piece, issues);
   for (const ExtensionUse::AttributeUse& attribute : use.attributes) {
-    checkAttribute(document, attribute, piece, issues);
+    checkAttribute(document, attribute, *piece, issues);
   }
-  checkIndices(document, use, piece, issues);
-  checkOrdinaryAttributes(document, use, piece, issues);
+  checkIndices(document, use, *piece, issues);
+  checkOrdinaryAttributes(document, use, *piece, issues);
 }
 
 Result checkAgainstPayload(const Document& document, const ExtensionUse& use,
                            const PayloadInfo& info) {
   Issues issues(1);
   checkAgainstPayload(document, use, info, issues);
+  return issues.first();
+}
+
+void checkPreview(const Document& document, const ExtensionUse& use, const PayloadInfo& info,
+                  Issues& issues) {
+  const PartUse& preview = *use.preview;
+  const PieceInfo* const piece = pieceOf(preview, info, issues);
+  if (piece == nullptr) return;
+  checkPart(preview, *piece, issues);
+  for (const ExtensionUse::AttributeUse& attribute : use.attributes) {
+    if (!hasAttribute(attribute.id, preview.path, *piece, issues)) continue;
+    const Accessor& accessor = document.accessors[attribute.accessor];
+    if (!accessor.is_known_type) continue;  // reported for the payload of the primitive
+    const AttributeFormat named = formatOf(attribute.name, attribute.target, accessor);
+    if (piece->attributes[attribute.id].format == named) continue;
+    issues.add(Rule::kSemantic, preview.path,
+               "attribute " + std::to_string(attribute.id) + " of the preview is not " +
+                   attribute.name + (attribute.target == kNone ? "" : " of this morph target") +
+                   ", or has another type");
+  }
+}
+
+Result checkAgainstPayload(const Document& document, const PayloadUse& payload,
+                           const PayloadInfo& info) {
+  Issues issues(1);
+  for (const ExtensionUse* use : payload.users) checkAgainstPayload(document, *use, info, issues);
+  for (const ExtensionUse* use : payload.previewed) checkPreview(document, *use, info, issues);
   return issues.first();
 }
 

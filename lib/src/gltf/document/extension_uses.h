@@ -5,6 +5,7 @@
 #define MCC_GLTF_DOCUMENT_EXTENSION_USES_H_
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,15 +16,21 @@
 
 namespace mcc::gltf {
 
-/// The use of our extension by one primitive, checked against the document but not yet against the
-/// payload. Numbers that are wrong in the document are kNone, or left out of `attributes`.
-struct ExtensionUse {
-  uint32_t mesh = 0;
-  uint32_t primitive = 0;
+/// Where an object of the JSON says that the triangles of a part are.
+struct PartUse {
   uint32_t view = kNone;
   uint64_t piece = 0;
   uint64_t part = 0;
   bool has_numbers = true;  ///< false: `piece` or `part` is wrong
+  std::string path;         ///< JSON path of the object
+};
+
+/// The use of our extension by one primitive, checked against the document but not yet against the
+/// payload. Numbers that are wrong in the document are kNone, or left out of `attributes`. The path
+/// is that of the extension object.
+struct ExtensionUse : PartUse {
+  uint32_t mesh = 0;
+  uint32_t primitive = 0;
   uint32_t indices_accessor = kNone;
   struct AttributeUse {
     std::string name;
@@ -33,8 +40,8 @@ struct ExtensionUse {
     std::string path;  ///< JSON path of the id
   };
   std::vector<AttributeUse> attributes;
-  std::string path;            ///< JSON path of the extension object
-  const Json* json = nullptr;  ///< the primitive, in the JSON of the document
+  std::optional<PartUse> preview;  ///< fills no accessor; its attributes have the same numbers
+  const Json* json = nullptr;      ///< the primitive, in the JSON of the document
 };
 
 /// Finds and checks the extension objects of all primitives, and checks who else refers to the
@@ -46,6 +53,10 @@ Result findExtensionUses(const Document& document, std::vector<ExtensionUse>& us
 struct PayloadUse {
   uint32_t view = 0;  ///< the first buffer view with these bytes
   std::vector<const ExtensionUse*> users;
+  std::vector<const ExtensionUse*> previewed;  ///< those whose preview it holds
+
+  /// Returns the JSON path where it is named first.
+  std::string where() const;
 };
 
 /// Returns the payloads of a document in the order of their buffer views. Views of the same bytes
@@ -65,6 +76,12 @@ std::span<const uint8_t> payloadBytes(const Document& document, uint32_t view);
 void checkAgainstPayload(const Document& document, const ExtensionUse& use, const PayloadInfo& info,
                          Issues& issues);
 Result checkAgainstPayload(const Document& document, const ExtensionUse& use,
+                           const PayloadInfo& info);
+/// The same for the preview of a use, which must have one. Its counts are its own.
+void checkPreview(const Document& document, const ExtensionUse& use, const PayloadInfo& info,
+                  Issues& issues);
+/// Checks all uses of a payload and stops at the first issue.
+Result checkAgainstPayload(const Document& document, const PayloadUse& payload,
                            const PayloadInfo& info);
 
 }  // namespace mcc::gltf

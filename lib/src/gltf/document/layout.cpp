@@ -38,10 +38,12 @@ class LayoutBuilder {
   Layout run() {
     findLiveViews();
     findKeptRanges();
+    layout_.offsets.resize(new_views_.size());
+    placeNewViews(true);
     placeBlocks();
     moveAccessors();
     numberViews();
-    placeNewViews();
+    placeNewViews(false);
     writeViews();
     writeBuffers();
     return std::move(layout_);
@@ -106,6 +108,7 @@ class LayoutBuilder {
       }
     }
     uint64_t& end = layout_.byte_count;
+    if (end != 0) end = (end + alignment - 1) & ~(alignment - 1);  // after views in front
     for (Block& block : blocks_) {
       const auto [buffer, begin, source_end] = block.source;
       block.target = end + (begin - end) % alignment;
@@ -115,11 +118,13 @@ class LayoutBuilder {
     }
   }
 
-  /// New views follow the bytes of the source.
-  void placeNewViews() {
-    for (const NewView& view : new_views_) {
+  /// Places the new views that are in front of the bytes of the source, or those that follow them.
+  void placeNewViews(bool in_front) {
+    for (size_t k = 0; k < new_views_.size(); ++k) {
+      const NewView& view = new_views_[k];
+      if (view.is_in_front != in_front) continue;
       layout_.byte_count = aligned(layout_.byte_count);
-      layout_.offsets.push_back(layout_.byte_count);
+      layout_.offsets[k] = layout_.byte_count;
       if (view.bytes != nullptr) {
         const std::span<const uint8_t> bytes(view.bytes, static_cast<size_t>(view.byte_count));
         layout_.runs.push_back({layout_.byte_count, bytes});

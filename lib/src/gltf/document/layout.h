@@ -47,6 +47,7 @@ struct NewView {
   std::vector<uint8_t> owned;      ///< where `bytes` are, if nobody else has them
   uint32_t stride_bytes = 0;       ///< 0: none is written
   uint32_t target = 0;             ///< of the GPU; 0: none is written
+  bool is_in_front = false;        ///< before all bytes of the source, instead of after them
 
   void hold(std::vector<uint8_t> content) {
     owned = std::move(content);

@@ -119,7 +119,9 @@ void visitViewReferencesOf(J& root, const Visit& visit) {
   visitElements(member(&root, "meshes"), [&](J& mesh) {
     visitElements(member(&mesh, "primitives"), [&](J& primitive) {
       J* extensions = member(&primitive, "extensions");
-      visitMember(member(extensions, kExtensionName), "bufferView", kNone, visit);
+      J* ours = member(extensions, kExtensionName);
+      visitMember(ours, "bufferView", kNone, visit);
+      visitMember(member(ours, "preview"), "bufferView", kNone, visit);
       visitMember(member(extensions, kMeshExtension), "bufferView", kNone, visit);
     });
   });

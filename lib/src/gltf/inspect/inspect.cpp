@@ -118,15 +118,27 @@ std::string whyWhole(const PayloadInfo& payload, const PieceInfo& piece, uint64_
          "convert says which";
 }
 
-Result inspectView(const Document& document, uint32_t view,
-                   const std::vector<const ExtensionUse*>& users, bool count_codes,
+/// Names the primitives of a payload, and its attributes.
+void nameUses(const PayloadUse& payload, InspectPayload& report) {
+  const auto name = [&](const ExtensionUse& use, uint64_t piece) {
+    report.primitives.push_back(primitivePath(use.mesh, use.primitive));
+    for (const auto& attribute : use.attributes) {
+      report.pieces[piece].details[attribute.id].name = primitiveLabel(attribute);
+    }
+  };
+  for (const ExtensionUse* use : payload.users) name(*use, use->piece);
+  for (const ExtensionUse* use : payload.previewed) name(*use, use->preview->piece);
+}
+
+Result inspectView(const Document& document, const PayloadUse& payload, bool count_codes,
                    DecodedBytes& decoded_bytes, InspectPayload& report) {
-  const std::string where = users[0]->path + "/bufferView";
-  const std::span<const uint8_t> bytes = payloadBytes(document, view);
+  const std::string where = payload.where();
+  const std::span<const uint8_t> bytes = payloadBytes(document, payload.view);
   DecodedPayload decoded;
   MCC_GLTF_TRY(toResult(decoded.payload.open(bytes), where));
   const PayloadInfo& info = decoded.payload.info();
-  report.buffer_view = view;
+  report.buffer_view = payload.view;
+  report.is_preview = payload.users.empty();
   report.payload_bytes = bytes.size();
   report.version_major = info.version_major;
   report.version_minor = info.version_minor;
@@ -155,13 +167,8 @@ Result inspectView(const Document& document, uint32_t view,
     row.whole_because = whyWhole(info, piece, row.triangle_count);
     report.pieces.push_back(std::move(row));
   }
-  for (const ExtensionUse* use : users) {
-    MCC_GLTF_TRY(checkAgainstPayload(document, *use, info));
-    report.primitives.push_back(primitivePath(use->mesh, use->primitive));
-    for (const auto& attribute : use->attributes) {
-      report.pieces[use->piece].details[attribute.id].name = primitiveLabel(attribute);
-    }
-  }
+  MCC_GLTF_TRY(checkAgainstPayload(document, payload, info));
+  nameUses(payload, report);
   if (!count_codes) return {};
   decoded_bytes.add(outputBytes(info));
   MCC_GLTF_TRY(decoded_bytes.check());
@@ -184,9 +191,9 @@ Result inspectBytes(std::span<const uint8_t> source, const FileReader& read_file
   DecodedBytes decoded(0, document.source_bytes);
   const std::vector<PayloadUse> payloads = payloadUses(document, uses);
   MCC_GLTF_TRY(checkPayloadLengths(document, payloads));
-  for (const auto& [view, users] : payloads) {
+  for (const PayloadUse& payload : payloads) {
     report.payloads.emplace_back();
-    MCC_GLTF_TRY(inspectView(document, view, users, count_codes, decoded, report.payloads.back()));
+    MCC_GLTF_TRY(inspectView(document, payload, count_codes, decoded, report.payloads.back()));
   }
   return {};
 }

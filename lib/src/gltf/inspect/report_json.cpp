@@ -60,6 +60,9 @@ Json primitiveJson(const PrimitiveReport& primitive) {
     json["triangles"] = primitive.triangle_count;
     json["vertices"] = primitive.wedge_count;
   }
+  if (primitive.preview_triangle_count != 0) {
+    json["preview_triangles"] = primitive.preview_triangle_count;
+  }
   if (!primitive.note.empty()) json["note"] = primitive.note;
   return json;
 }
@@ -84,23 +87,29 @@ Json optionsJson(const ConvertOptions& options) {
     const Lattice& l = *options.position_lattice;
     lattice = {l.origin[0], l.origin[1], l.origin[2], l.step};
   }
-  return {{"lossless", options.lossless},
-          {"max_position_error", options.max_position_error},
-          {"is_error_relative", options.is_error_relative},
-          {"position_lattice", lattice},
-          {"indices_only", options.indices_only},
-          {"drop_unused", options.drop_unused},
-          {"fallback", options.fallback},
-          {"keep_vertex_order", options.keep_vertex_order},
-          {"keep_triangle_order", options.keep_triangle_order},
-          {"grid", kGrids[static_cast<size_t>(options.grid)]},
-          {"prefer", kPreferences[static_cast<size_t>(options.prefer)]},
-          {"position_bits", options.position_bits},
-          {"normal_bits", options.normal_bits},
-          {"texcoord_bits", options.texcoord_bits},
-          {"color_bits", options.color_bits},
-          {"tangent_bits", options.tangent_bits},
-          {"weight_bits", options.weight_bits}};
+  Json json = {{"lossless", options.lossless},
+               {"max_position_error", options.max_position_error},
+               {"is_error_relative", options.is_error_relative},
+               {"position_lattice", lattice},
+               {"indices_only", options.indices_only},
+               {"drop_unused", options.drop_unused},
+               {"fallback", options.fallback},
+               {"keep_vertex_order", options.keep_vertex_order},
+               {"keep_triangle_order", options.keep_triangle_order},
+               {"grid", kGrids[static_cast<size_t>(options.grid)]},
+               {"prefer", kPreferences[static_cast<size_t>(options.prefer)]},
+               {"position_bits", options.position_bits},
+               {"normal_bits", options.normal_bits},
+               {"texcoord_bits", options.texcoord_bits},
+               {"color_bits", options.color_bits},
+               {"tangent_bits", options.tangent_bits},
+               {"weight_bits", options.weight_bits}};
+  if (options.preview_triangles == kPreviewsByShare) {
+    json["preview_triangles"] = "2 %";
+  } else if (options.preview_triangles != kNoPreviews) {
+    json["preview_triangles"] = options.preview_triangles;
+  }
+  return json;
 }
 
 std::string codingName(AttributeCoding coding, uint32_t bits) {
@@ -115,20 +124,22 @@ Json reportJson(const ConvertReport& report, const ConvertOptions& options) {
   for (const auto& primitive : report.primitives) primitives.push_back(primitiveJson(primitive));
   std::vector<std::string> notes = report.notes;
   notes.insert(notes.end(), report.remarks.begin(), report.remarks.end());
-  return {{"options", optionsJson(options)},
-          {"input_bytes", report.input_bytes},
-          {"output_bytes", report.output_bytes},
-          {"fallback_bytes", report.fallback_bytes},
-          {"input_contents", contentsJson(report.input_contents)},
-          {"output_contents", contentsJson(report.output_contents)},
-          {"copied", report.copied},
-          {"checked", report.checked},
-          {"encode_seconds", report.encode_seconds},
-          {"decode_seconds", report.decode_seconds},
-          {"check_seconds", report.check_seconds},
-          {"payloads", payloads},
-          {"primitives", primitives},
-          {"notes", notes}};
+  Json json = {{"options", optionsJson(options)},
+               {"input_bytes", report.input_bytes},
+               {"output_bytes", report.output_bytes},
+               {"fallback_bytes", report.fallback_bytes},
+               {"input_contents", contentsJson(report.input_contents)},
+               {"output_contents", contentsJson(report.output_contents)},
+               {"copied", report.copied},
+               {"checked", report.checked},
+               {"encode_seconds", report.encode_seconds},
+               {"decode_seconds", report.decode_seconds},
+               {"check_seconds", report.check_seconds},
+               {"payloads", payloads},
+               {"primitives", primitives},
+               {"notes", notes}};
+  if (report.preview_bytes != 0) json["preview_bytes"] = report.preview_bytes;
+  return json;
 }
 
 namespace {
@@ -211,6 +222,7 @@ Json inspectJson(const std::string& input, const InspectReport& report) {
                  {"single_coder", payload.single_coder},
                  {"primitives", payload.primitives},
                  {"pieces", pieces}};
+    if (payload.is_preview) json["preview"] = true;
     if (payload.has_codes) json["codes"] = codesJson(payload.codes);
     for (const StreamReport& stream : payload.streams) {
       json["stream_bytes"][stream.name] = stream.bits / 8;
