@@ -29,8 +29,8 @@ enum class MeshletShape : uint8_t {
   /// Those around its vertices, so that it is round: as few vertices and as small a sphere as
   /// meshopt_buildMeshlets() gives, in a few hundredths of the time.
   kRound = 0,
-  /// The next ones of the list, as meshopt_buildMeshletsScan() does. Twice as fast, but the
-  /// decoder's list is a spiral, so that meshlets are long strips.
+  /// The next ones of the list, as meshopt_buildMeshletsScan() does. Two to six times as fast, but
+  /// the decoder's list is a spiral, so that meshlets are long strips.
   kInOrder = 1,
 };
 
