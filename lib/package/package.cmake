@@ -34,7 +34,7 @@ function(mcc_shared_library name static alias file)
 endfunction()
 
 # Public headers by the library that a program needs to link for them.
-set(mcc_headers_reader allocator.h c_api.h decoded_limit.h error.h export.h job_runner.h reader.h simple.h
+set(mcc_headers_reader allocator.h c_api.h decoded_limit.h error.h export.h job_runner.h meshlets.h reader.h simple.h
                        simple_inline.h status.h types.h)
 set(mcc_headers_writer run_jobs.h writer.h)
 set(mcc_headers_gltf files.h glb.h result.h tinygltf.h)

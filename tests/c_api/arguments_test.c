@@ -486,6 +486,64 @@ static void test_questions(mcc_payload* payload) {
 }
 
 /* Every status has a text, whatever is in it. */
+/* Limits, shapes and sizes that cannot be; arrays that are null or shorter than the bound. */
+static void test_meshlets(void) {
+  static mcc_meshlet meshlets[kTriangles];
+  static uint32_t vertices[3 * kTriangles];
+  static uint8_t triangles[6 * kTriangles];
+  const mcc_triangle_list good_list = {indices, 4, kTriangles, kWedges};
+  const mcc_meshlet_target good = {meshlets, vertices, triangles,
+                                   mcc_meshlet_bound(kTriangles, NULL)};
+  mcc_triangle_list list = good_list;
+  mcc_meshlet_target target = good;
+  mcc_meshlet_sizes used;
+  mcc_meshlet_options options;
+  size_t i;
+  EXPECT(mcc_build_meshlets(&list, &target, &used, NULL).error == MCC_OK);
+  EXPECT(used.meshlet_count != 0);
+  EXPECT(mcc_build_meshlets(NULL, &target, &used, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(mcc_build_meshlets(&list, NULL, &used, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  EXPECT(mcc_build_meshlets(&list, &target, NULL, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  for (i = 0; i < COUNT_OF(kWild); ++i) {
+    const uint32_t n = kWild[i];
+    mcc_status status;
+    mcc_meshlet_options_init(&options, sizeof options);
+    options.max_vertices = n;
+    target.sizes = good.sizes;
+    status = mcc_build_meshlets(&list, &target, &used, &options);
+    EXPECT_OF((status.error == MCC_OK) == (n >= 63 && n <= 256), "max_vertices", n);
+    mcc_meshlet_options_init(&options, sizeof options);
+    options.shape = n;
+    status = mcc_build_meshlets(&list, &target, &used, &options);
+    EXPECT_OF((status.error == MCC_OK) == (n == 1), "shape", n);
+    list.index_bytes = n;
+    status = mcc_build_meshlets(&list, &target, &used, NULL);
+    if (n > 2) EXPECT_OF(status.error == MCC_ERROR_BAD_ARGUMENT, "index_bytes", n);
+    list = good_list;
+    list.vertex_count = n;
+    status = n < kWedges ? mcc_build_meshlets(&list, &target, &used, NULL) : status;
+    if (n < kWedges) EXPECT_OF(status.error == MCC_ERROR_BAD_ARGUMENT, "vertex_count", n);
+    list = good_list;
+  }
+  for (i = 0; i < COUNT_OF(kBeyond); ++i) {
+    target.sizes.vertex_count = kBeyond[i];
+    EXPECT_OF(mcc_build_meshlets(&list, &target, &used, NULL).error == MCC_ERROR_BAD_ARGUMENT,
+              "vertices beyond memory", i);
+    EXPECT(used.meshlet_count == 0);
+    target = good;
+  }
+  target.triangles = NULL;
+  EXPECT(mcc_build_meshlets(&list, &target, &used, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  target = good;
+  --target.sizes.meshlet_count;
+  EXPECT(mcc_build_meshlets(&list, &target, &used, NULL).error == MCC_ERROR_BAD_ARGUMENT);
+  list.triangle_count = 0x10000001;
+  EXPECT(mcc_build_meshlets(&list, &good, &used, NULL).error == MCC_ERROR_LIMIT);
+  mcc_meshlet_options_init(&options, sizeof options);
+  options.allocator.allocate = take;
+  EXPECT(mcc_build_meshlets(&good_list, &good, &used, &options).error == MCC_ERROR_BAD_ARGUMENT);
+}
+
 static void test_texts(void) {
   static const int32_t kErrors[] = {-1, 0, 4, 14, 64, 65, INT32_MAX, INT32_MIN};
   char text[8];
@@ -672,6 +730,7 @@ int test_arguments(const uint8_t* glb, size_t glb_bytes) {
   test_questions(payload);
   mcc_payload_close(payload);
   mcc_encoding_release(encoding);
+  test_meshlets();
   test_texts();
   test_options_of_documents(glb, glb_bytes);
   test_documents(glb, glb_bytes);

@@ -109,6 +109,42 @@ static mcc_status decode_sheet(const mcc_payload* payload, void* target_indices,
   return mcc_payload_decode(payload, &piece, 1, options);
 }
 
+/* Meshlets of a list are its triangles again: each once, with its corners in their order. */
+static void test_meshlets(const uint32_t* list) {
+  enum { kMost = kTriangles };
+  static mcc_meshlet meshlets[kMost];
+  static uint32_t meshlet_vertices[3 * kTriangles];
+  static uint8_t meshlet_triangles[6 * kTriangles];
+  static uint8_t seen[kTriangles];
+  const mcc_triangle_list triangles = {list, 4, kTriangles, kWedges};
+  const mcc_meshlet_sizes sizes = mcc_meshlet_bound(kTriangles, NULL);
+  const mcc_meshlet_target target = {meshlets, meshlet_vertices, meshlet_triangles, sizes};
+  mcc_meshlet_sizes used;
+  size_t found = 0;
+  size_t i;
+  uint32_t t;
+  uint32_t u;
+  EXPECT(sizes.meshlet_count <= kMost && sizes.triangle_bytes <= sizeof meshlet_triangles);
+  EXPECT(mcc_build_meshlets(&triangles, &target, &used, NULL).error == MCC_OK);
+  EXPECT(used.meshlet_count >= kTriangles / 124 && used.meshlet_count < kTriangles / 60);
+  memset(seen, 0, sizeof seen);
+  for (i = 0; i < used.meshlet_count; ++i) {
+    const uint32_t* corners = meshlet_vertices + meshlets[i].vertex_offset;
+    const uint8_t* local = meshlet_triangles + meshlets[i].triangle_offset;
+    EXPECT(meshlets[i].vertex_count <= 64 && meshlets[i].triangle_count <= 124);
+    for (t = 0; t < meshlets[i].triangle_count; ++t, local += 3) {
+      for (u = 0; u < kTriangles; ++u) {
+        if (list[3 * u] == corners[local[0]] && list[3 * u + 1] == corners[local[1]] &&
+            list[3 * u + 2] == corners[local[2]] && !seen[u]) {
+          seen[u] = 1;
+          ++found;
+        }
+      }
+    }
+  }
+  EXPECT(found == kTriangles);
+}
+
 static void test_round_trip(const mcc_encoding* encoding) {
   size_t byte_count = 0;
   size_t wedge_count = 0;
@@ -141,6 +177,7 @@ static void test_round_trip(const mcc_encoding* encoding) {
   EXPECT(decode_sheet(payload, long_indices, 4, NULL).error == MCC_OK);
   for (i = 0; i < kWedges; ++i)
     EXPECT(memcmp(&decoded[i], &vertices[source[i]], sizeof(vertex)) == 0);
+  test_meshlets(long_indices);
   EXPECT(decode_sheet(payload, short_indices, 2, NULL).error == MCC_OK);
   for (i = 0; i < 3 * kTriangles; ++i) EXPECT(short_indices[i] == long_indices[i]);
   EXPECT(decode_sheet(payload, short_indices, 1, NULL).error == MCC_ERROR_BAD_ARGUMENT);

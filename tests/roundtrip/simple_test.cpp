@@ -195,6 +195,27 @@ TEST(Simple, WrongMeshes) {
   EXPECT_TRUE(refused([](auto&, auto& options) { options.normal_bits = 1; }));
 }
 
+TEST(Simple, MeshletsOfADecodedMesh) {
+  simple::Mesh mesh;
+  mesh.add("POSITION", torus(40, 30).positions);
+  mesh.primitives = {torus(40, 30).indices};
+  const simple::Mesh decoded = roundTripOf(mesh, kDefaults);
+  simple::Meshlets made;
+  ASSERT_TRUE(
+      simple::buildMeshlets(decoded.primitives[0], decoded.vertex_count, made, {32, 60, {}, {}})
+          .ok());
+  EXPECT_GE(made.meshlets.size(), 2400u / 60);
+  EXPECT_LT(made.meshlets.size(), 2400u / 30);
+  const Meshlet& last = made.meshlets.back();
+  EXPECT_EQ(made.vertices.size(), last.vertex_offset + last.vertex_count);
+  EXPECT_EQ(made.triangles.size(), (last.triangle_offset + 3 * last.triangle_count + 3) / 4 * 4);
+  const std::vector<uint32_t> wrong = {0, 1, 2, 3};
+  EXPECT_EQ(simple::buildMeshlets(wrong, 4, made).error, Error::kBadArgument);
+  EXPECT_TRUE(made.meshlets.empty());
+  EXPECT_EQ(simple::buildMeshlets({wrong.data(), 3}, 2, made).error, Error::kBadArgument);
+  EXPECT_TRUE(made.vertices.empty());
+}
+
 TEST(Simple, HostileBytes) {
   std::vector<uint8_t> payload;
   ASSERT_TRUE(simple::encode(fullMesh(torus(8, 6)), payload).ok());

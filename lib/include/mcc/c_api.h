@@ -350,6 +350,73 @@ MCC_API mcc_status mcc_payload_decode_block(const mcc_payload* payload, uint32_t
                                             const mcc_piece_target* target,
                                             const mcc_decode_options* options);
 
+/** Where a meshlet is in the arrays of an mcc_meshlet_target. Has the layout of meshopt_Meshlet. */
+typedef struct mcc_meshlet {
+  uint32_t vertex_offset;
+  uint32_t triangle_offset; /**< a multiple of 4 */
+  uint32_t vertex_count;
+  uint32_t triangle_count;
+} mcc_meshlet;
+
+/** Which triangles go into a meshlet, see mcc::MeshletShape. */
+enum { MCC_MESHLETS_ROUND = 0, MCC_MESHLETS_IN_ORDER = 1 };
+
+/** How large meshlets may be. */
+typedef struct mcc_meshlet_options {
+  size_t struct_bytes;
+  uint32_t max_vertices;   /**< 3..256; default 64 */
+  uint32_t max_triangles;  /**< 1..512; default 124 */
+  uint32_t shape;          /**< MCC_MESHLETS_… */
+  mcc_allocator allocator; /**< for the working memory */
+} mcc_meshlet_options;
+
+/**
+ * Sets `struct_bytes`, which the caller passes as sizeof(mcc_meshlet_options), and the defaults.
+ */
+MCC_API void mcc_meshlet_options_init(mcc_meshlet_options* options, size_t struct_bytes);
+
+/** Numbers of elements in the arrays of an mcc_meshlet_target. */
+typedef struct mcc_meshlet_sizes {
+  size_t meshlet_count;
+  size_t vertex_count;
+  size_t triangle_bytes;
+} mcc_meshlet_sizes;
+
+/** Memory of the caller that mcc_build_meshlets() fills, of at least mcc_meshlet_bound(). */
+typedef struct mcc_meshlet_target {
+  mcc_meshlet* meshlets;
+  uint32_t* vertices;      /**< for each meshlet its vertices, as the indices have them */
+  uint8_t* triangles;      /**< for each triangle the numbers of its corners among these */
+  mcc_meshlet_sizes sizes; /**< of the three arrays */
+} mcc_meshlet_target;
+
+/** Triangles as mcc_payload_decode() makes them for a part. */
+typedef struct mcc_triangle_list {
+  const void* indices;  /**< 3 * triangle_count, aligned for their type */
+  uint32_t index_bytes; /**< 1, 2 or 4 */
+  uint32_t triangle_count;
+  uint32_t vertex_count; /**< each index is below it: mcc_piece_info::wedge_count */
+} mcc_triangle_list;
+
+/**
+ * Returns how large the arrays of an mcc_meshlet_target have to be for any list of so many
+ * triangles; at most 2^28, and zeros when mcc_build_meshlets() refuses the numbers.
+ */
+MCC_API mcc_meshlet_sizes mcc_meshlet_bound(uint32_t triangle_count,
+                                            const mcc_meshlet_options* options);
+
+/**
+ * Divides a triangle list into meshlets, see mcc::buildMeshlets(). Each triangle is in one of them,
+ * with its corners in their order. Safe for untrusted indices. Takes linear time. Deterministic.
+ * Tests: tests/c_api.
+ * @param used  receives how much of the arrays is in use, or zeros on an error
+ * @return MCC_ERROR_BAD_ARGUMENT (options out of range, an index that is no vertex, arrays that are
+ *   null or too small), _LIMIT, _OUT_OF_MEMORY
+ */
+MCC_API mcc_status mcc_build_meshlets(const mcc_triangle_list* list,
+                                      const mcc_meshlet_target* target, mcc_meshlet_sizes* used,
+                                      const mcc_meshlet_options* options);
+
 /* ---------------------------------------------------------------- writer */
 
 /** One vertex attribute in the caller's memory. */

@@ -13,8 +13,9 @@
 #include <string_view>
 #include <vector>
 
-#include "mcc/status.h"  // error, what, offset_bytes, ok()
-#include "mcc/types.h"   // ComponentType: kInt8, kUint8, kInt16, kUint16, kUint32, kFloat32
+#include "mcc/meshlets.h"  // Meshlet, MeshletOptions
+#include "mcc/status.h"    // error, what, offset_bytes, ok()
+#include "mcc/types.h"     // ComponentType: kInt8, kUint8, kInt16, kUint16, kUint32, kFloat32
 
 namespace mcc::simple {
 
@@ -50,6 +51,14 @@ struct Mesh {
            int target = kBase);
 };
 
+/// Clusters of the triangles of a primitive for mesh shaders, in the layout of meshoptimizer. Owns
+/// its arrays.
+struct Meshlets {
+  std::vector<Meshlet> meshlets;   ///< where each begins in the arrays, and how long it is
+  std::vector<uint32_t> vertices;  ///< of the mesh
+  std::vector<uint8_t> triangles;  ///< three for each triangle: vertices of the meshlet
+};
+
 /// What encode() keeps. Bits are those of each component of float attributes, and 0 keeps every
 /// bit; other types and other attributes are exact. See QuantizationBits in glb.h.
 struct EncodeOptions {
@@ -73,6 +82,15 @@ struct EncodeOptions {
 /// memory is taken. Deterministic. Inverse: encode(). Tests: tests/roundtrip/simple_test.cpp.
 Status decode(std::span<const uint8_t> payload, std::vector<Mesh>& meshes,
               uint64_t max_decoded_bytes = 0);
+
+/// Divides a primitive into meshlets, see mcc/meshlets.h. Call it with those of decode(), whose
+/// order of triangles is a good one for that.
+/// primitive  triangles of a mesh with so many vertices
+/// Returns kBadArgument (a number of indices that is no multiple of 3, an index that is no vertex,
+/// options out of range), kLimit (more than 2^28 triangles), kOutOfMemory; `meshlets` is then
+/// empty. Throws std::bad_alloc only. Deterministic. Tests: tests/roundtrip/simple_test.cpp.
+Status buildMeshlets(std::span<const uint32_t> primitive, uint32_t vertex_count, Meshlets& meshlets,
+                     const MeshletOptions& options = {});
 
 /// Encodes a mesh. It comes back as meshes[0], with vertices and triangles in another order.
 /// Returns kBadArgument (no POSITION, no primitive, an index that is no vertex, indices that are no

@@ -114,6 +114,30 @@ inline Status decode(std::span<const uint8_t> payload, std::vector<Mesh>& meshes
   return status;
 }
 
+inline Status buildMeshlets(std::span<const uint32_t> primitive, uint32_t vertex_count,
+                            Meshlets& meshlets, const MeshletOptions& options) {
+  meshlets = {};
+  if (primitive.size() % 3 != 0)
+    return fail(Error::kBadArgument, "the number of indices is no multiple of 3");
+  if (primitive.size() / 3 > UINT32_MAX) return fail(Error::kLimit, "more than 2^28 triangles");
+  const auto triangle_count = static_cast<uint32_t>(primitive.size() / 3);
+  MeshletSizes sizes = meshletBound(triangle_count, options);
+  meshlets.meshlets.resize(sizes.meshlet_count);
+  meshlets.vertices.resize(sizes.vertex_count);
+  meshlets.triangles.resize(sizes.triangle_bytes);
+  const Status status = mcc::buildMeshlets(
+      {primitive.data(), IndexType::kUint32, triangle_count, vertex_count},
+      {meshlets.meshlets, meshlets.vertices, meshlets.triangles}, sizes, options);
+  if (!status.ok()) {
+    meshlets = {};
+    return status;
+  }
+  meshlets.meshlets.resize(sizes.meshlet_count);
+  meshlets.vertices.resize(sizes.vertex_count);
+  meshlets.triangles.resize(sizes.triangle_bytes);
+  return status;
+}
+
 #if __has_include("mcc/writer.h")
 namespace detail {
 

@@ -11,6 +11,7 @@
 
 #include "base/c_struct.h"
 #include "base/memory.h"
+#include "mcc/meshlets.h"
 #include "mcc/reader.h"
 
 struct mcc_payload {
@@ -25,6 +26,8 @@ static_assert(MCC_ERROR_CANCELLED == static_cast<int>(Error::kCancelled));
 static_assert(MCC_CUSTOM == static_cast<int>(Semantic::kCustom));
 static_assert(MCC_FLOAT32 == static_cast<int>(ComponentType::kFloat32));
 static_assert(MCC_CODING_GRID == static_cast<int>(AttributeCoding::kGrid));
+static_assert(MCC_MESHLETS_IN_ORDER == static_cast<int>(MeshletShape::kInOrder));
+static_assert(sizeof(mcc_meshlet) == sizeof(Meshlet));
 static_assert(MCC_NO_OFFSET == Status::kNoOffset);
 
 /// Converts an allocator, of which one function alone would be called with memory of the other's.
@@ -200,6 +203,54 @@ Status open(const void* bytes, size_t byte_count, uint64_t payload_bytes,
   return {};
 }
 
+mcc_meshlet_options defaultMeshletOptions() {
+  const MeshletOptions options;
+  return {sizeof(mcc_meshlet_options),
+          options.max_vertices,
+          options.max_triangles,
+          static_cast<uint32_t>(options.shape),
+          {}};
+}
+
+Status meshletOptionsOf(const mcc_meshlet_options* given, MeshletOptions& options) {
+  mcc_meshlet_options read;
+  MCC_TRY(readStruct(given, defaultMeshletOptions(), read));
+  if (read.shape > MCC_MESHLETS_IN_ORDER)
+    return fail(Error::kBadArgument, "shape is none of MCC_MESHLETS_…");
+  options.max_vertices = read.max_vertices;
+  options.max_triangles = read.max_triangles;
+  options.shape = static_cast<MeshletShape>(read.shape);
+  return fromC(read.allocator, options.allocator);
+}
+
+Status checkTarget(const mcc_meshlet_target& target) {
+  const mcc_meshlet_sizes& sizes = target.sizes;
+  if (canBeInMemory(target.meshlets, sizes.meshlet_count, sizeof(Meshlet), sizeof(Meshlet)) &&
+      canBeInMemory(target.vertices, sizes.vertex_count, sizeof(uint32_t), sizeof(uint32_t)) &&
+      canBeInMemory(target.triangles, sizes.triangle_bytes, 1, 1)) {
+    return {};
+  }
+  return fail(Error::kBadArgument, "an array for meshlets is longer than memory");
+}
+
+Status meshletsOf(const mcc_triangle_list& list, const mcc_meshlet_target& target,
+                  mcc_meshlet_sizes& used, const mcc_meshlet_options* given) {
+  MeshletOptions options;
+  MCC_TRY(meshletOptionsOf(given, options));
+  if (list.index_bytes != 1 && list.index_bytes != 2 && list.index_bytes != 4)
+    return fail(Error::kBadArgument, "index_bytes is not 1, 2 or 4");
+  MCC_TRY(checkTarget(target));
+  MeshletSizes sizes;
+  MCC_TRY(buildMeshlets({list.indices, static_cast<IndexType>(list.index_bytes),
+                         list.triangle_count, list.vertex_count},
+                        {{reinterpret_cast<Meshlet*>(target.meshlets), target.sizes.meshlet_count},
+                         {target.vertices, target.sizes.vertex_count},
+                         {target.triangles, target.sizes.triangle_bytes}},
+                        sizes, options));
+  used = {sizes.meshlet_count, sizes.vertex_count, sizes.triangle_bytes};
+  return {};
+}
+
 }  // namespace
 }  // namespace mcc
 
@@ -359,4 +410,23 @@ mcc_status mcc_payload_decode_block(const mcc_payload* payload, uint32_t block,
       [&](std::span<const mcc::PieceTarget> all, const mcc::DecodeOptions& decode_options) {
         return payload->payload.decodeBlock(block, all[0], decode_options);
       }));
+}
+
+void mcc_meshlet_options_init(mcc_meshlet_options* options, size_t struct_bytes) {
+  mcc::initStruct(options, struct_bytes, mcc::defaultMeshletOptions());
+}
+
+mcc_meshlet_sizes mcc_meshlet_bound(uint32_t triangle_count, const mcc_meshlet_options* options) {
+  mcc::MeshletOptions read;
+  if (!mcc::meshletOptionsOf(options, read).ok()) return {};
+  const mcc::MeshletSizes bound = mcc::meshletBound(triangle_count, read);
+  return {bound.meshlet_count, bound.vertex_count, bound.triangle_bytes};
+}
+
+mcc_status mcc_build_meshlets(const mcc_triangle_list* list, const mcc_meshlet_target* target,
+                              mcc_meshlet_sizes* used, const mcc_meshlet_options* options) {
+  if (list == nullptr || target == nullptr || used == nullptr)
+    return mcc::badArgument("list, target or used is null");
+  *used = {};
+  return mcc::toC(mcc::meshletsOf(*list, *target, *used, options));
 }
