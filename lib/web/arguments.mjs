@@ -13,6 +13,11 @@ export const ARRAYS = {
   5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array,
 };
 
+const WIDTHS = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5124: 4, 5125: 4, 5126: 4, 5130: 8, 5131: 2, 5134: 8, 5135: 8 };
+
+/** Returns the bytes of a component of a type of glTF 2.0 or of the draft of 2.1, and undefined for all others. */
+export const componentBytes = (componentType) => WIDTHS[componentType];
+
 /** Whether the header of a payload says that there are blocks. */
 export function claimsBlocks(bytes) {
   return bytes.length >= FLAGS_END && bytes[0] === 0x4b && (bytes[FLAGS_END - 1] & 8) !== 0; // A.2.1

@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Limits what all payloads of a file may decode to, before memory is allocated, and how many are under way at a time.
-import { limitOf, limitsOf } from './arguments.mjs';
+import { componentBytes, limitOf, limitsOf } from './arguments.mjs';
 import { fail, inView, MccError, placed, requireArgument } from './error.mjs';
 
 /** More than there are workers, so that each has something to do. */
@@ -16,8 +16,8 @@ export function namedBytes({ claims }) {
   for (const { piece, part, indices, attributes } of claims) {
     sizes.set(`${piece} part ${part}`, 4 * indices.count);
     for (const { attribute, accessor, componentType, componentCount } of attributes) {
-      const componentBytes = componentType < 5122 ? 1 : componentType < 5124 ? 2 : 4;
-      sizes.set(`${piece} ${attribute}`, accessor.count * componentCount * componentBytes);
+      // Of a type that no payload has, the header tells later.
+      sizes.set(`${piece} ${attribute}`, accessor.count * componentCount * (componentBytes(componentType) ?? 8));
     }
   }
   return sum([...sizes.values()]);

@@ -10,6 +10,8 @@ import { checkShape, DOCUMENT, EXTENSION, NEEDED } from './shape.mjs';
 export const EXTENSION_NAME = 'KHR_mesh_collapse_compression';
 
 const TRIANGLES = 4;
+const INT = 5124;
+const UNSIGNED_INT = 5125;
 const FLOAT = 5126;
 const CUSTOM = 7;
 const INDEX_TYPES = [5121, 5123, 5125];
@@ -83,7 +85,10 @@ function checkOverlaps(payloads) {
  * the component type of the accessor.
  */
 export function elementsOf({ pieces }, { piece, attribute, part }, { componentType }) {
-  if (attribute !== undefined) return pieces[piece].attributes[attribute].array;
+  if (attribute !== undefined) {
+    const { array } = pieces[piece].attributes[attribute];
+    return componentType === INT ? new Int32Array(array.buffer, array.byteOffset, array.length) : array;
+  }
   const { indices } = pieces[piece].parts[part];
   const IndexArray = ARRAYS[componentType];
   return indices instanceof IndexArray ? indices : new IndexArray(indices);
@@ -161,7 +166,8 @@ function readMap(json, ids = {}, path, accessors = {}, morphTarget, claim) {
     const attribute = ids[name];
     if (name === 'POSITION' && morphTarget === 0 && attribute !== 0) fail(`${path}/${name}`, 'must be attribute 0');
     claim.attributes.push({
-      path: `${path}/${name}`, attribute, accessor, componentType, componentCount: COMPONENT_COUNTS[type] ?? 0, normalized,
+      // Payloads have the bits of signed integers as those of unsigned ones.
+      path: `${path}/${name}`, attribute, accessor, componentType: componentType === INT ? UNSIGNED_INT : componentType, componentCount: COMPONENT_COUNTS[type] ?? 0, normalized,
       ...semanticOf(name, type, componentType), morphTarget,
     });
   }

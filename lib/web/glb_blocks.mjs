@@ -7,11 +7,11 @@ import { Chunks } from './chunks.mjs';
 import { payloadsOf } from './document.mjs';
 import { fail, inView, requireArgument } from './error.mjs';
 import { CheckOfPreview, previewsOf } from './previews.mjs';
-import { BIN_CHUNK, readGlb } from './unpack.mjs';
+import { BIN_CHUNK, JSON_CHUNK, parse, readChunkHeader, readGlbHeader } from './unpack.mjs';
 import { usesOf } from './uses.mjs';
 
-const HEADER_BYTES = 12;
-const CHUNK_HEADER_BYTES = 8;
+/** Of the longest header, and that of the first chunk. */
+const MOST_HEADER_BYTES = 32;
 /** The JSON of larger files is not read. */
 const MAX_JSON_BYTES = 2 ** 28;
 
@@ -35,15 +35,14 @@ export async function* blocksIn(source, options, { wantsPreviews, wantsBlocks })
   requireArgument(typeof decodeBlocks === 'function', 'decodeBlocks must be a function');
   const chunks = new Chunks(source);
   try {
-    const { json, fileBytes, binBytes } = await readBeginning(chunks);
-    const begin = chunks.position;
+    const { json, fileBytes, walk } = await readBeginning(chunks);
     const payloads = payloadsOf(json);
     const previews = wantsPreviews ? previewsOf(json, payloads) : [];
-    const wanted = inPlace(json, [...(wantsBlocks ? payloads : []), ...previews], binBytes);
+    const wanted = inPlace(json, [...(wantsBlocks ? payloads : []), ...previews]);
     const budget = new Budget(fileBytes, limits);
     budget.add(sum(wanted.map(namedBytes)));
     for (const payload of wanted) {
-      await chunks.skip(begin + payload.offset - chunks.position);
+      await walk.toPayload(payload);
       const { bufferView, claims, bytes: payloadBytes } = payload;
       const check = payload.expected && new CheckOfPreview(payload);
       const uses = usesByPiece(payload.uses ?? usesOf(claims));
@@ -66,10 +65,11 @@ export async function* blocksIn(source, options, { wantsPreviews, wantsBlocks })
 }
 
 /** Sorts payloads by their places in the file. */
-function inPlace(json, payloads, binBytes) {
-  const placed = payloads.map((payload) => ({ ...payload, ...placeOf(json, payload, binBytes) })).sort((a, b) => a.offset - b.offset);
-  placed.forEach(({ bufferView, offset }, i) => {
-    if (i > 0 && offset < placed[i - 1].offset + placed[i - 1].bytes) fail(`/bufferViews/${bufferView}`, 'overlaps another payload');
+function inPlace(json, payloads) {
+  const placed = payloads.map((payload) => ({ ...payload, ...placeOf(json, payload) })).sort((a, b) => a.chunk - b.chunk || a.offset - b.offset);
+  placed.forEach(({ bufferView, chunk, offset }, i) => {
+    const last = placed[i - 1];
+    if (last?.chunk === chunk && offset < last.offset + last.bytes) fail(`/bufferViews/${bufferView}`, 'overlaps another payload');
   });
   return placed;
 }
@@ -83,32 +83,67 @@ function usesByPiece(list) {
   return uses;
 }
 
-/** Reads up to the bytes of the BIN chunk. */
+/** Reads the JSON, which must be the first chunk here. */
 async function readBeginning(chunks) {
-  const start = await chunks.peek(HEADER_BYTES + CHUNK_HEADER_BYTES);
-  const words = new DataView(start.buffer, start.byteOffset, start.byteLength);
-  const jsonBytes = start.length < HEADER_BYTES + CHUNK_HEADER_BYTES ? 0 : words.getUint32(12, true);
-  if (jsonBytes > MAX_JSON_BYTES) fail('byte 12', 'the JSON is too long');
-  const beginning = new Uint8Array(await chunks.peek(start.length + jsonBytes)); // a copy
-  const fileBytes = beginning.length < HEADER_BYTES ? 0 : words.getUint32(8, true);
-  // readGlb() checks what is there as if it were all.
-  if (beginning.length >= HEADER_BYTES && fileBytes >= beginning.length) {
-    new DataView(beginning.buffer).setUint32(8, beginning.length, true);
-  }
-  const { json } = readGlb(beginning);
-  await chunks.skip(beginning.length);
-  const next = await chunks.peek(CHUNK_HEADER_BYTES);
-  if (next.length < CHUNK_HEADER_BYTES) return { json, fileBytes, binBytes: 0 };
-  const header = new DataView(next.buffer, next.byteOffset, next.byteLength);
-  if (header.getUint32(4, true) !== BIN_CHUNK) return { json, fileBytes, binBytes: 0 };
-  await chunks.skip(CHUNK_HEADER_BYTES);
-  return { json, fileBytes, binBytes: header.getUint32(0, true) };
+  const start = await chunks.peek(MOST_HEADER_BYTES);
+  const view = new DataView(start.buffer, start.byteOffset, start.byteLength);
+  const framing = readGlbHeader(view);
+  const { version, length: fileBytes, headerBytes, chunkHeaderBytes } = framing;
+  const begin = headerBytes + chunkHeaderBytes;
+  if (start.length < begin) fail('byte 8', 'the file ends inside of a header');
+  const { size, type } = readChunkHeader(view, headerBytes, version);
+  if (type !== JSON_CHUNK) fail(`byte ${headerBytes}`, 'the first chunk of a GLB must be its JSON, if it is decoded while it is loaded');
+  if (size > MAX_JSON_BYTES) fail(`byte ${headerBytes}`, 'the JSON is too long');
+  if (size > fileBytes - begin) fail(`byte ${headerBytes}`, `the chunk of ${size} bytes runs past the end of the file`);
+  const text = (await chunks.peek(begin + size)).subarray(begin);
+  if (text.length < size) fail(`byte ${headerBytes}`, `the chunk of ${size} bytes runs past the end of the file`);
+  const json = parse(text);
+  return { json, fileBytes, walk: new Walk(chunks, framing, begin + size) };
 }
 
-function placeOf(json, { bufferView }, binBytes) {
+/** Goes from chunk to chunk. */
+class Walk {
+  #chunks;
+  #framing;
+  #end; // of the chunk, in the file
+  #number = 0;
+  #begin = 0;
+  #binBytes = 0; // of the chunk, if it is a BIN chunk
+
+  constructor(chunks, framing, end) {
+    this.#chunks = chunks;
+    this.#framing = framing;
+    this.#end = end;
+  }
+
+  /** Goes on to a payload, which is not before the last one. */
+  async toPayload({ bufferView, chunk, offset, bytes }) {
+    while (this.#number < chunk && await this.#toNext());
+    if (this.#number < chunk || offset + bytes > this.#binBytes) fail(`/bufferViews/${bufferView}`, 'reaches beyond its buffer');
+    await this.#chunks.skip(this.#begin + offset - this.#chunks.position);
+  }
+
+  async #toNext() {
+    const { version, length, chunkHeaderBytes, alignment } = this.#framing;
+    const next = version === 2 ? this.#end : Math.ceil(this.#end / alignment) * alignment;
+    if (next + chunkHeaderBytes > length) return false;
+    await this.#chunks.skip(next - this.#chunks.position);
+    const head = await this.#chunks.peek(chunkHeaderBytes);
+    if (head.length < chunkHeaderBytes) return false;
+    const { size, type } = readChunkHeader(new DataView(head.buffer, head.byteOffset, head.byteLength), 0, version);
+    await this.#chunks.skip(chunkHeaderBytes);
+    ++this.#number;
+    this.#begin = this.#chunks.position;
+    this.#end = this.#begin + size;
+    this.#binBytes = type === BIN_CHUNK ? size : 0;
+    return true;
+  }
+}
+
+/** Says which chunk a payload is in, and where. */
+function placeOf(json, { bufferView }) {
   const { buffer, byteOffset = 0, byteLength } = json.bufferViews[bufferView];
-  const path = `/bufferViews/${bufferView}`;
-  if (buffer !== 0 || json.buffers[0].uri !== undefined) fail(`${path}/buffer`, 'the payload is not in the GLB');
-  if (byteOffset + byteLength > binBytes) fail(path, 'reaches beyond its buffer');
-  return { offset: byteOffset, bytes: byteLength };
+  const { uri, chunk = buffer === 0 ? 1 : undefined } = json.buffers[buffer] ?? {};
+  if (uri !== undefined || !Number.isInteger(chunk) || chunk < 1) fail(`/bufferViews/${bufferView}/buffer`, 'the payload is not in the GLB');
+  return { chunk, offset: byteOffset, bytes: byteLength };
 }

@@ -5,7 +5,7 @@ import { sum } from './budget.mjs';
 import { prepareHere } from './decode.mjs';
 import { EXTENSION_NAME, listOf } from './document.mjs';
 import { fail } from './error.mjs';
-import { unpackGlb } from './unpack.mjs';
+import { readGlb, unpackGlb } from './unpack.mjs';
 import { unpackGltf } from './unpack_gltf.mjs';
 import { isContainer, unpackTile } from './unpack_tile.mjs';
 
@@ -178,6 +178,8 @@ async function startOf(response) {
     if (isContainer(head)) return { isContainer: true };
     const isGlb = textOf(head.subarray(0, 4)) === GLB_MAGIC;
     if (!isGlb && textOf(head).trimStart()[0] !== '{') return {};
+    // The JSON of version 3 may be anywhere.
+    if (isGlb && new DataView(head.buffer).getUint32(4, true) === 3) return { isGlb, json: readGlb(await readTo(Infinity)).json };
     const [from, to] = isGlb ? [HEADER_BYTES, HEADER_BYTES + new DataView(head.buffer).getUint32(12, true)] : [0, Infinity];
     return { isGlb, json: JSON.parse(textOf((await readTo(to)).subarray(from, to))) };
   } catch {

@@ -5,6 +5,11 @@ export interface UnpackOptions {
   /** Default: decodePayload(). The one of a pool decodes in workers. */
   decode?: (bytes: Uint8Array, options: DecodeOptions) => Promise<DecodedPayload>;
   limits?: FileLimits;
+  /**
+   * The version of the result: 2, or 3 as in the draft of glTF 2.1. Without it, only what does not fit in 4 GiB gets version 3. `bytes`
+   * without the extension keep theirs.
+   */
+  glbVersion?: 2 | 3;
 }
 
 /**

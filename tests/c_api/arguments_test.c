@@ -587,6 +587,7 @@ static void test_options_of_documents(const uint8_t* glb, size_t glb_bytes) {
       {"keep_triangle_order", offsetof(mcc_convert_options, keep_triangle_order), 1},
       {"prefer", offsetof(mcc_convert_options, prefer), MCC_PREFER_SPEED},
       {"drop_unused", offsetof(mcc_convert_options, drop_unused), 1},
+      {"glb_version", offsetof(mcc_convert_options, glb_version), 3},
   };
   const double kErrors[] = {NAN, INFINITY, -INFINITY, -1, -DBL_MIN, -DBL_MAX};
   static const float kSteps[] = {0.0f, -0.0f, -1.0f, (float)NAN, (float)INFINITY, (float)-INFINITY};

@@ -57,6 +57,12 @@ Files filesIn(const fs::path& folder) {
   return files;
 }
 
+/// Whether a file is a GLB of the version that Khronos' validator does not read.
+bool isGlb3(const Files& files, const std::string& name) {
+  const auto file = files.find(name);
+  return file != files.end() && isGlb(file->second) && glbVersion(file->second) == 3;
+}
+
 void writeFiles(const fs::path& folder, const Files& files) {
   fs::remove_all(folder);
   fs::create_directories(folder);
@@ -221,7 +227,10 @@ TEST_F(Documents, ComeBackAsTheyWere) {
           << issue.code << " " << issue.message << " " << issue.pointer;
     }
     expectSameAgain(document, way);
-    if (!no_validator.empty()) return;
+    const bool can_validate = no_validator.empty() && !isGlb3(document.files, document.main) &&
+                              !isGlb3(way.converted, way.converted_name) &&
+                              !isGlb3(way.decoded, way.converted_name);
+    if (!can_validate) return;
     const std::string name = std::to_string(seed);
     const fs::path source = keep("validated/" + name + "_source", document.files, document.main);
     const fs::path converted =

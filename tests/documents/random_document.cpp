@@ -1232,7 +1232,8 @@ class Maker {
       std::vector<GlbChunk> others;
       const Bytes chunk = {1, 2, 3, 4};
       if (chance(5)) others.push_back({0x12345678, chunk});
-      const Result result = writeGlb(text, is_empty ? Bytes{} : buffers_[0], others, file);
+      const uint32_t version = chance(25) ? 3 : 2;
+      const Result result = writeGlb(text, is_empty ? Bytes{} : buffers_[0], others, file, version);
       if (!result.ok()) file.clear();
     } else {
       if (is_odd_ && chance(10)) file = {0xef, 0xbb, 0xbf};
@@ -1279,6 +1280,9 @@ class Maker {
     options.keep_vertex_order = chance(20);
     options.keep_triangle_order = chance(20);
     options.prefer = static_cast<Preference>(chance(60) ? 0 : below(3));
+    static constexpr GlbVersion kVersions[] = {GlbVersion::kSmallest, GlbVersion::k2,
+                                               GlbVersion::k3};
+    options.glb_version = kVersions[chance(70) ? 0 : below(3)];
     options.thread_count = chance(90) ? 1 : 2;
     document_.to_memory = document_.files.size() == 1 && chance(60);
     document_.writes_gltf = !document_.to_memory && chance(50);
@@ -1389,7 +1393,8 @@ void damageJsonOf(Random& random, Bytes& file) {
     return;
   }
   Bytes damaged;
-  if (writeGlb({text.begin(), text.end()}, glb.bin, glb.other_chunks, damaged).ok())
+  const std::vector<GlbChunk> others = glb.otherChunks({glb.bin_chunk});
+  if (writeGlb({text.begin(), text.end()}, glb.bin, others, damaged, glb.version).ok())
     file = std::move(damaged);
 }
 
@@ -1451,6 +1456,9 @@ std::string describe(const ConvertOptions& options) {
   if (options.prefer != Preference::kBalanced)
     add(options.prefer == Preference::kSize ? "prefer size" : "prefer speed");
   if (options.allow_larger) add("allow-larger");
+  if (options.glb_version != GlbVersion::kSmallest) {
+    add("glb-version " + std::to_string(static_cast<uint32_t>(options.glb_version)));
+  }
   return text.empty() ? "defaults" : text;
 }
 

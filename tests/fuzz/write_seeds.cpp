@@ -98,6 +98,9 @@ void addSamples(Seeds& seeds) {
     seeds.add("glb", file);
     gltf::GlbFile glb;
     if (!gltf::readGlb(file, glb).ok()) continue;
+    std::vector<uint8_t> version3;
+    const std::string text(glb.json.begin(), glb.json.end());
+    if (gltf::writeGlb(text, glb.bin, {}, version3, 3).ok()) seeds.add("glb", version3);
     seeds.add("json", {glb.json.begin(), glb.json.end()});
     std::vector<uint8_t> parts = {1};
     append16(parts, glb.json.size());

@@ -326,7 +326,7 @@ TEST(OtherPeoplesDocuments, ChunksOfAGlb) {
     EXPECT_TRUE(isCompressed(jsonOf(trip.converted), 0, 0));
     GlbFile glb;
     ASSERT_TRUE(readGlb(trip.decoded, glb).ok());
-    EXPECT_EQ(glb.other_chunks.size(), 1u);
+    EXPECT_EQ(glb.otherChunks({}).size(), 1u);
   }
 }
 

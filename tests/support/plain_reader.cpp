@@ -100,12 +100,15 @@ std::string PlainDocument::load(const Files& files, const std::string& main) try
   Bytes text = file;
   Bytes bin;
   if (file.size() >= 12 && std::memcmp(file.data(), "glTF", 4) == 0) {
-    for (size_t at = 12; at + 8 <= file.size();) {
-      const uint32_t length = word(file, at);
-      const uint32_t type = word(file, at + 4);
-      if (type == 0x4e4f534a) text = slice(file, at + 8, length);
-      if (type == 0x004e4942) bin = slice(file, at + 8, length);
-      at += 8 + ((size_t{length} + 3) & ~size_t{3});
+    const bool is_glb3 = word(file, 4) == 3;
+    const size_t header_bytes = is_glb3 ? 16 : 8;
+    const size_t alignment = is_glb3 ? 8 : 4;
+    for (size_t at = is_glb3 ? 16 : 12; at + header_bytes <= file.size();) {
+      const uint32_t length = word(file, is_glb3 ? at + 8 : at);
+      const uint32_t type = word(file, is_glb3 ? at : at + 4);
+      if (type == 0x4e4f534a) text = slice(file, at + header_bytes, length);
+      if (type == 0x004e4942) bin = slice(file, at + header_bytes, length);
+      at += header_bytes + (length + alignment - 1) / alignment * alignment;
     }
   }
   if (text.size() >= 3 && text[0] == 0xef) text.erase(text.begin(), text.begin() + 3);

@@ -208,7 +208,7 @@ describe('damaged tiles', () => {
   test('what is wrong inside of a model has its place and its code', async () => {
     const damaged = readAsset(manifest.negative.find(({ file }) => file.includes('damaged_checksum')));
     await assertRefused(cmpt([b3dm(MODEL), b3dm(damaged)]), new RegExp(`^in the GLB at byte ${16 + b3dm(MODEL).length + 28}: .*checksum`), 'BadChecksum');
-    await assertRefused(b3dm(withNumber(MODEL, 4, 3)), /^in the GLB at byte 28: byte 4: only version 2/);
+    await assertRefused(b3dm(withNumber(MODEL, 4, 4)), /^in the GLB at byte 28: byte 4: only versions 2/);
   });
 
   test('composites are nested to a bound, and far deeper ones cost nothing', async () => {

@@ -56,6 +56,7 @@ draco::DataType dracoDataType(ComponentType type) {
     case ComponentType::kInt16: return draco::DT_INT16;
     case ComponentType::kUint16: return draco::DT_UINT16;
     case ComponentType::kUint32: return draco::DT_UINT32;
+    case ComponentType::kInt32: return draco::DT_INT32;
     case ComponentType::kFloat32: return draco::DT_FLOAT32;
   }
   return draco::DT_INVALID;

@@ -26,6 +26,7 @@ double loadComponent(const std::byte* element, ComponentType type, uint32_t comp
     case ComponentType::kInt16: return load<int16_t>(place);
     case ComponentType::kUint16: return load<uint16_t>(place);
     case ComponentType::kUint32: return load<uint32_t>(place);
+    case ComponentType::kInt32: return load<int32_t>(place);
     case ComponentType::kFloat32: return load<float>(place);
   }
   return 0;

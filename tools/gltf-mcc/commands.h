@@ -50,6 +50,9 @@ void addPreference(Command& command, gltf::ConvertOptions& options);
 /// Adds the options for bits, --lossless, --grid and --prefer.
 void addQuantization(Command& command, gltf::ConvertOptions& options);
 
+/// Adds --glb-version.
+void addGlbVersionOption(Command& command, gltf::GlbVersion& version);
+
 /// Adds --max-decoded-bytes, see decodedLimit().
 void addDecodedLimitOption(Command& command, uint64_t& max_decoded_bytes);
 

@@ -25,6 +25,14 @@ void addFormatOption(Command& command, CommonOptions& options) {
                    "How tables are printed");
 }
 
+void addGlbVersionOption(Command& command, gltf::GlbVersion& version) {
+  command.addWords("--glb-version", version,
+                   {{"smallest", gltf::GlbVersion::kSmallest},
+                    {"2", gltf::GlbVersion::k2},
+                    {"3", gltf::GlbVersion::k3}},
+                   "Container of a .glb: smallest is 2, or 3 above 4 GiB [smallest]");
+}
+
 void addDecodedLimitOption(Command& command, uint64_t& max_decoded_bytes) {
   command
       .add("--max-decoded-bytes", "N", &max_decoded_bytes,

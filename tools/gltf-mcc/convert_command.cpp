@@ -261,6 +261,7 @@ void addConvert(Program& program) {
   addFormatOption(command, state->common);
   addThreadCount(command, state->convert.thread_count, "Threads to use [1]");
   command.addFlag("--force", state->is_forced, "With -o DIR: also convert what is up to date");
+  addGlbVersionOption(command, state->convert.glb_version);
   addDecodedLimitOption(command, state->convert.max_decoded_bytes);
   addVerbosityOptions(command, state->common);
   addColorOption(command);

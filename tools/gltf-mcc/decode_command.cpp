@@ -42,7 +42,8 @@ int DecodeCommand::runMany() const {
   options.done_name = "decoded";
   options.copied_why = "nothing in it is compressed";
   options.settings = {
-      {"decode_to", decoding.decode_to == gltf::DecodeTo::kIntegers ? "integers" : "floats"}};
+      {"decode_to", decoding.decode_to == gltf::DecodeTo::kIntegers ? "integers" : "floats"},
+      {"glb_version", static_cast<uint32_t>(decoding.glb_version)}};
   options.make = [this](const std::string& file, const std::filesystem::path& to,
                         uint32_t threads_of_file, BatchResult& result) {
     gltf::DecodeReport done;
@@ -99,6 +100,7 @@ void addDecode(Program& program) {
                    "What quantised attributes become [floats]");
   addThreadCount(command, state->decoding.thread_count, "Threads to use [1]");
   command.addFlag("--force", state->is_forced, "With -o DIR: also decode what is up to date");
+  addGlbVersionOption(command, state->decoding.glb_version);
   addDecodedLimitOption(command, state->decoding.max_decoded_bytes);
   addVerbosityOptions(command, state->common);
   addColorOption(command);

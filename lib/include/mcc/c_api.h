@@ -526,6 +526,8 @@ typedef struct mcc_convert_options {
   uint32_t drop_unused; /**< 1: vertices that no triangle uses are left out */
   /** triangles of a block, see mcc_encode_options */
   uint32_t block_triangles;
+  /** 2, 3, or 0: 2 unless the GLB has more than 4 GiB; 3 is that of the draft of glTF 2.1 */
+  uint32_t glb_version;
 } mcc_convert_options;
 
 /**
@@ -557,6 +559,7 @@ typedef struct mcc_decode_glb_options {
    * default, allows 1024 bytes for each byte of the GLB, but at least 256 MiB and at most 4 GiB.
    */
   uint64_t max_decoded_bytes;
+  uint32_t glb_version; /**< as in mcc_convert_options */
 } mcc_decode_glb_options;
 
 /**

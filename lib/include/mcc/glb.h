@@ -102,6 +102,13 @@ inline constexpr uint32_t kPreviewsByShare = 0xffffffffu;  ///< 2 % of the trian
 /// Primitives with fewer triangles get no preview.
 inline constexpr uint32_t kMinPreviewedTriangles = 100000;
 
+/// The version of the container of a GLB that is written.
+enum class GlbVersion : uint32_t {
+  kSmallest = 0,  ///< 2, or 3 for more than 4 GiB; a source that is copied keeps its own
+  k2 = 2,         ///< that of glTF 2.0; files of more than 4 GiB are an error
+  k3 = 3,         ///< that of the draft of glTF 2.1, which few programs read; see docs/gltf-2.1.md
+};
+
 /// How convertGlb() compresses.
 struct ConvertOptions : QuantizationBits {
   bool lossless = false;  ///< every float keeps every bit; all bits are ignored
@@ -154,6 +161,7 @@ struct ConvertOptions : QuantizationBits {
   std::function<void(const char* stage, double share)> progress;
   /// Compresses even where that makes the file larger.
   bool allow_larger = false;
+  GlbVersion glb_version = GlbVersion::kSmallest;
 };
 
 /// How accurately one attribute was coded. Errors are in degrees for unit vectors, else in units of
@@ -262,6 +270,7 @@ struct DecodeOptions {
   /// How much the file may decode to, see decodedLimit(); 0: the default. Checked before memory is
   /// taken.
   uint64_t max_decoded_bytes = 0;
+  GlbVersion glb_version = GlbVersion::kSmallest;
 };
 
 /// What decodeGlb() did.

@@ -352,6 +352,16 @@ inline Result decode(::tinygltf::Model& model, const DecodeOptions& options = {}
       });
 }
 
+namespace detail {
+
+/// tinygltf reads no other version of the container.
+inline DecodeOptions withGlb2(DecodeOptions options) {
+  options.glb_version = gltf::GlbVersion::k2;
+  return options;
+}
+
+}  // namespace detail
+
 /// Decodes a .glb in memory and loads it. Use it instead of loader.LoadBinaryFromMemory().
 /// `base_dir` is the folder of its images. Otherwise like load().
 inline bool loadFromMemory(::tinygltf::TinyGLTF& loader, ::tinygltf::Model* model,
@@ -360,7 +370,7 @@ inline bool loadFromMemory(::tinygltf::TinyGLTF& loader, ::tinygltf::Model* mode
                            const DecodeOptions& options = {}) {
   std::vector<uint8_t> glb;
   gltf::DecodeReport report;
-  const Result result = gltf::decodeGlb(file, glb, report, options);
+  const Result result = gltf::decodeGlb(file, glb, report, detail::withGlb2(options));
   if (!result.ok() && error != nullptr) *error += result.message();
   return result.ok() && detail::loadDecoded(loader, model, error, warning, glb, base_dir);
 }
@@ -375,7 +385,8 @@ inline bool load(::tinygltf::TinyGLTF& loader, ::tinygltf::Model* model, std::st
   std::vector<uint8_t> glb;
   gltf::DecodeReport report;
   const std::filesystem::path source = path;
-  const Result result = gltf::decode({source, {}}, {"decoded.glb", &glb}, report, options);
+  const Result result =
+      gltf::decode({source, {}}, {"decoded.glb", &glb}, report, detail::withGlb2(options));
   if (!result.ok() && error != nullptr) *error += result.message();
   const std::string base_dir = source.parent_path().string();
   return result.ok() && detail::loadDecoded(loader, model, error, warning, glb, base_dir);

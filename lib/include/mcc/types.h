@@ -18,6 +18,8 @@ enum class ComponentType : uint8_t {
   kUint16 = 3,
   kUint32 = 4,
   kFloat32 = 5,
+  /// That of accessors of glTF 2.1 (5124). A payload has kUint32 for it, with the same bits.
+  kInt32 = 6,
 };
 
 /// Bytes of one component.
@@ -28,6 +30,7 @@ constexpr uint32_t componentBytes(ComponentType type) {
     case ComponentType::kInt16:
     case ComponentType::kUint16: return 2;
     case ComponentType::kUint32:
+    case ComponentType::kInt32:
     case ComponentType::kFloat32: return 4;
   }
   return 0;

@@ -99,12 +99,12 @@ class ConvertOptions(ctypes.Structure):
                 ("max_position_error", c_double), ("is_error_relative", c_uint32), ("indices_only", c_uint32),
                 ("keep_vertex_order", c_uint32), ("keep_triangle_order", c_uint32), ("thread_count", c_uint32),
                 ("position_lattice", POINTER(Lattice)), ("prefer", c_uint32), ("max_decoded_bytes", c_uint64),
-                ("drop_unused", c_uint32), ("block_triangles", c_uint32)]
+                ("drop_unused", c_uint32), ("block_triangles", c_uint32), ("glb_version", c_uint32)]
 
 
 class DecodeGlbOptions(ctypes.Structure):
     _fields_ = [("struct_bytes", c_size_t), ("decode_to", c_uint32), ("thread_count", c_uint32),
-                ("max_decoded_bytes", c_uint64)]
+                ("max_decoded_bytes", c_uint64), ("glb_version", c_uint32)]
 
 
 # Name, result, arguments. Objects of the library are plain pointers here.

@@ -68,7 +68,7 @@ class Document:
     """A GLB whose accessors are read once each, however often they are used."""
 
     def __init__(self, glb: bytes, max_bytes: int):
-        text, self._binary = _chunks(glb)
+        text, self._chunks = _chunks(glb)
         try:
             document = json.loads(str(text, "utf-8"))
         except (ValueError, RecursionError) as failure:
@@ -194,13 +194,26 @@ class Document:
             raise refuse(path, "reaches beyond the end of its buffer")
         return data[begin:begin + size]
 
+    def _bytes_in_glb(self, buffer: Dict[str, Any], number: int) -> memoryview:
+        """Returns the BIN chunk that a buffer names (glTF 2.1), or that of the first buffer."""
+        nothing = len(self._chunks)
+        is_first = number == 0 and self._chunks[0][0] == b"JSON"
+        chunk = count_in(buffer, "chunk", f"/buffers/{number}", 1 if is_first else nothing)
+        kind, data = self._chunks[chunk] if chunk < nothing else (b"", memoryview(b""))
+        if kind == b"BIN\0":
+            return data
+        if "chunk" in buffer:
+            raise refuse(f"/buffers/{number}/chunk", f"chunk {chunk} is not a BIN chunk")
+        return memoryview(b"")
+
     def _bytes_of_buffer(self, number: int, path: str) -> memoryview:
         """Returns the BIN chunk, or the bytes of a data: URI."""
         if number in self._buffers:
             return self._buffers[number]
-        uri = self.item("buffers", number, f"{path}/buffer").get("uri")
+        buffer = self.item("buffers", number, f"{path}/buffer")
+        uri = buffer.get("uri")
         if uri is None:
-            data = self._binary if number == 0 else memoryview(b"")
+            data = self._bytes_in_glb(buffer, number)
         elif isinstance(uri, str) and uri.startswith("data:") and ";base64," in uri:
             try:
                 data = memoryview(base64.b64decode(uri.split(";base64,", 1)[1]))
@@ -213,21 +226,28 @@ class Document:
         return data
 
 
-def _chunks(glb: bytes) -> Tuple[memoryview, memoryview]:
-    """Returns the JSON and the BIN chunk of a GLB."""
-    if len(glb) < 20 or glb[:4] != b"glTF":
-        raise refuse("", "this is not a GLB")
+def _chunks(glb: bytes) -> Tuple[memoryview, List[Tuple[bytes, memoryview]]]:
+    """Returns the JSON of a GLB, and the kind and the bytes of each chunk. docs/gltf-2.1.md has both versions."""
+    version = struct.unpack_from("<I", glb, 4)[0] if len(glb) >= 20 and glb[:4] == b"glTF" else 0
+    if version not in (2, 3):
+        raise refuse("", "this is not a GLB of version 2 or 3")
+    at, header, alignment = (12, "<I4s", 1) if version == 2 else (16, "<4sIQ", 8)
     data = memoryview(glb)
-    size, kind = struct.unpack_from("<I4s", glb, 12)
-    if kind != b"JSON" or size > len(data) - 20:
+    chunks: List[Tuple[bytes, memoryview]] = []
+    while at + struct.calcsize(header) <= len(data):
+        words = struct.unpack_from(header, glb, at)
+        size, kind = words if version == 2 else (words[2], words[0])
+        if version == 3 and words[1] != 0:
+            raise refuse(f"byte {at + 4}", "the chunk is encoded, which cannot be read")
+        begin = at + struct.calcsize(header)
+        if size > len(data) - begin and kind == b"JSON":
+            raise refuse(f"byte {at}", "the JSON chunk is missing or truncated")
+        chunks.append((kind, data[begin:begin + size]))
+        at = -(-(begin + size) // alignment) * alignment
+    texts = [content for kind, content in (chunks[:1] if version == 2 else chunks) if kind == b"JSON"]
+    if not texts:
         raise refuse("byte 12", "the JSON chunk is missing or truncated")
-    binary_at = 20 + size
-    binary = memoryview(b"")
-    if binary_at + 8 <= len(data):
-        binary_size, kind = struct.unpack_from("<I4s", glb, binary_at)
-        if kind == b"BIN\0":
-            binary = data[binary_at + 8:binary_at + 8 + binary_size]
-    return data[20:binary_at], binary
+    return texts[0], chunks
 
 
 def _code_in(owner: Dict[str, Any], path: str) -> str:

@@ -31,7 +31,7 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
             grid: str = "mesh", max_position_error: float = 0.0, is_error_relative: bool = False,
             position_lattice: Optional[Sequence[float]] = None, indices_only: bool = False, keep_vertex_order: bool = False, keep_triangle_order: bool = False,
             drop_unused: bool = False, prefer: str = "balanced", block_triangles: Optional[int] = None,
-            thread_count: int = 1, max_decoded_bytes: int = 0) -> bytes:
+            thread_count: int = 1, max_decoded_bytes: int = 0, glb_version: int = 0) -> bytes:
     """Compresses the meshes of a GLB and returns the GLB that results.
 
     The result is decoded and compared with the source before the call returns; where compression gains
@@ -54,6 +54,7 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
         block_triangles: triangles of a block of a large surface, 0 for no blocks; None: `prefer` decides
         thread_count: how many threads to use
         max_decoded_bytes: bounds what a compressed source may decode to; 0 is the library's default
+        glb_version: 2, 3 (of the draft of glTF 2.1), or 0: 2 unless the result has more than 4 GiB
 
     Raises:
         Error: the file is not a GLB, or is damaged, or an option is out of range
@@ -85,11 +86,13 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
     options.prefer = choice(prefer, PREFERENCES, "prefer")
     options.thread_count = unsigned(thread_count, "thread_count")
     options.max_decoded_bytes = unsigned(max_decoded_bytes, "max_decoded_bytes", 64)
+    options.glb_version = unsigned(glb_version, "glb_version")
     return _document(source, lambda glb, document: library.mcc_convert_glb(
         glb, len(glb), ctypes.byref(options), document))
 
 
-def decode(source: Source, *, decode_to: str = "floats", thread_count: int = 1, max_decoded_bytes: int = 0) -> bytes:
+def decode(source: Source, *, decode_to: str = "floats", thread_count: int = 1, max_decoded_bytes: int = 0,
+           glb_version: int = 0) -> bytes:
     """Turns the compressed primitives of a GLB into ordinary accessors again and returns the GLB.
 
     Safe for untrusted input.
@@ -100,6 +103,7 @@ def decode(source: Source, *, decode_to: str = "floats", thread_count: int = 1, 
         thread_count: how many threads to use; the result does not depend on it
         max_decoded_bytes: a GLB that asks for more is refused before memory is taken; 0 allows 1024 bytes for
             each byte of the GLB, but at least 256 MiB and at most 4 GiB
+        glb_version: as in convert()
 
     Raises:
         Error: the file is not a GLB, or is damaged
@@ -111,6 +115,7 @@ def decode(source: Source, *, decode_to: str = "floats", thread_count: int = 1, 
     options.decode_to = choice(decode_to, DECODE_TO, "decode_to")
     options.thread_count = unsigned(thread_count, "thread_count")
     options.max_decoded_bytes = unsigned(max_decoded_bytes, "max_decoded_bytes", 64)
+    options.glb_version = unsigned(glb_version, "glb_version")
     return _document(source, lambda glb, document: library.mcc_decode_glb(
         glb, len(glb), ctypes.byref(options), document))
 

@@ -39,7 +39,9 @@ mcc_convert_options defaultConvertOptions() {
   return options;
 }
 
-mcc_decode_glb_options defaultDecodeOptions() { return {sizeof(mcc_decode_glb_options), 0, 1, 0}; }
+mcc_decode_glb_options defaultDecodeOptions() {
+  return {sizeof(mcc_decode_glb_options), 0, 1, 0, 0};
+}
 
 /// Stores a number in a type that it may be too large for; checkOptions() refuses what it becomes
 /// then.
@@ -70,6 +72,7 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
   out.thread_count = options.thread_count;
   out.block_triangles = options.block_triangles;
   out.max_decoded_bytes = options.max_decoded_bytes;
+  out.glb_version = static_cast<GlbVersion>(options.glb_version);
   if (options.position_lattice != nullptr) {
     Lattice& lattice = out.position_lattice.emplace();
     std::copy_n(options.position_lattice->origin, 4, lattice.origin);
@@ -138,6 +141,8 @@ mcc_status mcc_decode_glb(const void* glb, size_t byte_count, const mcc_decode_g
   mcc_decode_glb_options read;
   mcc::Status status = mcc::readStruct(options, mcc::gltf::defaultDecodeOptions(), read);
   if (status.ok()) status = mcc::checkFlags({read.decode_to});
+  const auto glb_version = static_cast<mcc::gltf::GlbVersion>(read.glb_version);
+  if (status.ok()) status = mcc::gltf::checkGlbVersion(glb_version);
   if (!status.ok()) {
     if (document != nullptr) *document = nullptr;
     return mcc::toC(status);
@@ -146,6 +151,7 @@ mcc_status mcc_decode_glb(const void* glb, size_t byte_count, const mcc_decode_g
   decode_options.decode_to = static_cast<mcc::gltf::DecodeTo>(read.decode_to);
   decode_options.thread_count = read.thread_count;
   decode_options.max_decoded_bytes = read.max_decoded_bytes;
+  decode_options.glb_version = glb_version;
   return mcc::gltf::makeDocument(glb, byte_count, document,
                                  [&](const mcc::gltf::Source& source, const mcc::gltf::Sink& sink) {
                                    mcc::gltf::DecodeReport report;

@@ -83,8 +83,9 @@ struct Output {
   FilesInUse* files = nullptr;               ///< null: nobody asks
   Container container;
 
-  Result open(const ListedSink& listed, bool with_fallback) {
+  Result open(const ListedSink& listed, bool with_fallback, GlbVersion glb_version) {
     const Sink& sink = listed.sink;
+    container.glb_version = static_cast<uint32_t>(glb_version);
     bytes = sink.bytes;
     files = listed.files;
     if (files != nullptr) *files = {};
@@ -95,6 +96,7 @@ struct Output {
     destination = std::make_unique<Destination>(sink.path, listed.temporaries);
     MCC_GLTF_TRY(destination->check(with_fallback));
     container = destination->container();
+    container.glb_version = static_cast<uint32_t>(glb_version);
     return {};
   }
 
@@ -173,7 +175,16 @@ Result packageDocument(const Document& document, Json json, const BufferContent&
   if (output.container.is_gltf && !document.other_chunks.empty()) {
     notes.push_back("the GLB has chunks that a .gltf cannot hold; they are left out");
   }
-  return writePackage(output.container, std::move(json), buffer, document.other_chunks, package);
+  MCC_GLTF_TRY(
+      writePackage(output.container, std::move(json), buffer, document.other_chunks, package));
+  const auto& others = document.other_chunks;
+  const bool is_glb2 = !output.container.is_gltf && glbVersion(package.main) == 2;
+  if (is_glb2 && !std::all_of(others.begin(), others.end(), fitsGlb2)) {
+    notes.push_back(
+        "the GLB has further JSON or BIN chunks, which no buffer names and version 2 cannot hold; "
+        "they are left out (glb_version 3, --glb-version 3 keep them)");
+  }
+  return {};
 }
 
 /// Used when nothing was compressed or decompressed: stores the source itself, or its contents in
@@ -182,8 +193,12 @@ Result packageSource(const Document& document, const Input& input, const Output&
                      Package& package, std::vector<std::string>& notes, bool& is_copy) {
   package = {};
   const bool moves = output.destination && !output.destination->isBeside(input.path);
-  is_copy = document.is_glb != output.container.is_gltf &&
-            (!input.isFile() || !moves || canCopyBuffers(document.json));
+  const uint32_t version = output.container.glb_version;
+  const bool is_container =
+      document.is_glb ? !output.container.is_gltf &&
+                            (version == kSmallestGlbVersion || version == document.glb_version)
+                      : output.container.is_gltf;
+  is_copy = is_container && (!input.isFile() || !moves || canCopyBuffers(document.json));
   if (is_copy) {
     package.main.assign(input.bytes.begin(), input.bytes.end());
     return addFilesBeside(document.json, true, input, output, package, notes);
@@ -383,7 +398,17 @@ bool areBits(uint8_t bits, uint32_t from, uint32_t to) {
 
 }  // namespace
 
+Status checkGlbVersion(GlbVersion version) {
+  switch (version) {
+    case GlbVersion::kSmallest:
+    case GlbVersion::k2:
+    case GlbVersion::k3: return {};
+  }
+  return fail(Error::kBadArgument, "glb_version is not 0, 2 or 3");
+}
+
 Status checkOptions(const ConvertOptions& options) {
+  if (const Status checked = checkGlbVersion(options.glb_version); !checked.ok()) return checked;
   const QuantizationBits& bits = options;
   for (const uint8_t number :
        {bits.position_bits, bits.texcoord_bits, bits.color_bits, bits.weight_bits}) {
@@ -429,7 +454,7 @@ Result convertTo(const ListedSink& sink, const Source& source, const ConvertOpti
     Input input;
     Output output;
     MCC_GLTF_TRY(input.open(source, within));
-    MCC_GLTF_TRY(output.open(sink, options.fallback));
+    MCC_GLTF_TRY(output.open(sink, options.fallback, options.glb_version));
     Conversion conversion;
     MCC_GLTF_TRY(inInput(input, convertInput(input, output, options, conversion, report)));
     MCC_GLTF_TRY(output.write(std::move(conversion.package)));
@@ -454,10 +479,13 @@ Result convertTo(const ListedSink& sink, const Source& source, const ConvertOpti
 Result decodeTo(const ListedSink& sink, const Source& source, const DecodeOptions& options,
                 DecodeReport& report) {
   const Result result = guarded([&]() -> Result {
+    if (const Status checked = checkGlbVersion(options.glb_version); !checked.ok()) {
+      return error("", checked.what);
+    }
     Input input;
     Output output;
     MCC_GLTF_TRY(input.open(source));
-    MCC_GLTF_TRY(output.open(sink, false));
+    MCC_GLTF_TRY(output.open(sink, false, options.glb_version));
     Package package;
     MCC_GLTF_TRY(inInput(input, decodeInput(input, output, options, package, report)));
     MCC_GLTF_TRY(output.write(std::move(package)));

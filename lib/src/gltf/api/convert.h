@@ -23,6 +23,9 @@ struct ListedSink {
 /// words.
 Status checkOptions(const ConvertOptions& options);
 
+/// Checks that a version is one of the enumerators, which callers in C may miss.
+Status checkGlbVersion(GlbVersion version);
+
 /// Like convert() and decode(), apart from the list.
 /// within  a folder that contains that of the source, as NamedFile::open() takes it: the files that
 ///         the source names may be links to anything in it.

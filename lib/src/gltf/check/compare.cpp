@@ -198,7 +198,7 @@ class BytesChecker {
 
   void addAccessor(uint32_t index) {
     const Accessor& a = source_.accessors[index];
-    if (!a.is_known_type || (a.view == kNone && a.sparse.count == 0)) return;
+    if (a.view == kNone && a.sparse.count == 0) return;
     const Accessor& b = written_.accessors[index];
     const bool is_same = a.fault.ok() == b.fault.ok() && a.count == b.count &&
                          a.elementBytes() == b.elementBytes() &&

@@ -84,9 +84,9 @@ class Prover {
       return error("", "the payload has other counts than were planned");
     }
     for (size_t k = 0; k < piece.attributes.size(); ++k) {
-      const AttributeFormat& format = piece.attributes[k].format;
+      const Accessor& accessor = source_.accessors[piece.attributes[k].accessor];
       bounds.attributes.push_back(
-          boundsOf(decoded.attributes[k], format.component_type, format.component_count));
+          boundsOf(decoded.attributes[k], accessor.component_type, accessor.componentCount()));
       MCC_GLTF_TRY(proveAttribute(number, k, source_of));
     }
     for (size_t k = 0; k < piece.parts.size(); ++k) {

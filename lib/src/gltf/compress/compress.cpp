@@ -88,7 +88,8 @@ class Applier {
       Json& accessor = (*accessors_)[index];
       const bool is_position = attribute.name == "POSITION";
       accessor["count"] = piece.wedge_count;
-      setBounds(bounds.attributes[k], attribute.format.component_type, is_position, accessor);
+      setBounds(bounds.attributes[k], document_.accessors[attribute.accessor].component_type,
+                is_position, accessor);
       accessors.push_back(index);
     }
     for (size_t k = 0; k < piece.parts.size(); ++k) {

@@ -217,7 +217,13 @@ class Planner {
       if (!accessor.fault.ok()) {
         return attribute.label() + " " + whyUnreadable(document_, accessor);
       }
-      if (!accessor.is_known_type) return attribute.label() + " has an unknown type";
+      if (!accessor.is_known_type) {
+        return attribute.label() + " has a type that payloads cannot hold";
+      }
+      // glTF 2.1 has them for names that applications choose.
+      if (accessor.component_type == ComponentType::kInt32 && !attribute.name.starts_with('_')) {
+        return attribute.label() + " has signed integers of 32 bits";
+      }
       if (accessor.count != count) {
         return "has " + std::to_string(count) + " positions but " + std::to_string(accessor.count) +
                " elements of " + attribute.label();

@@ -192,8 +192,8 @@ std::string describeType(const Accessor& accessor) {
   } else if (accessor.rows > 1) {
     name = "VEC" + std::to_string(accessor.rows);
   }
-  static constexpr const char* kNames[] = {"BYTE",           "UNSIGNED_BYTE", "SHORT",
-                                           "UNSIGNED_SHORT", "UNSIGNED_INT",  "FLOAT"};
+  static constexpr const char* kNames[] = {
+      "BYTE", "UNSIGNED_BYTE", "SHORT", "UNSIGNED_SHORT", "UNSIGNED_INT", "FLOAT", "INT"};
   return name + " of " + kNames[static_cast<size_t>(accessor.component_type)];
 }
 
@@ -202,6 +202,7 @@ double componentValue(const uint8_t* bytes, ComponentType type) {
   switch (type) {
     case ComponentType::kInt8: return static_cast<int8_t>(raw);
     case ComponentType::kInt16: return static_cast<int16_t>(raw);
+    case ComponentType::kInt32: return static_cast<int32_t>(raw);
     case ComponentType::kFloat32: return std::bit_cast<float>(raw);
     default: return raw;
   }
@@ -243,7 +244,9 @@ std::vector<uint8_t> narrowIndices(std::span<const uint32_t> indices, uint32_t i
 
 AttributeFormat formatOf(const std::string& name, uint32_t target, const Accessor& accessor) {
   AttributeFormat type;
-  type.component_type = accessor.component_type;
+  // Payloads have no signed integers of 32 bits; their coding wraps around, so that bits suffice.
+  const bool is_int32 = accessor.component_type == ComponentType::kInt32;
+  type.component_type = is_int32 ? ComponentType::kUint32 : accessor.component_type;
   type.normalized = accessor.normalized;
   type.component_count = static_cast<uint8_t>(accessor.componentCount());
   type.morph_target = static_cast<uint16_t>(target == kNone ? 0 : target + 1);

@@ -60,8 +60,8 @@ class ContentsWalk {
   void addAccessor(uint64_t index) {
     if (index >= document_.accessors.size() || !known_.insert(index).second) return;
     const Accessor& accessor = document_.accessors[index];
-    if (!accessor.is_known_type) return;
-    if (!accessor.fault.ok()) return addView(accessor.view);  // its range was not checked
+    // Its range is not known, or was not checked.
+    if (!accessor.is_known_type || !accessor.fault.ok()) return addView(accessor.view);
     const auto ranges = accessorRanges(document_, static_cast<uint32_t>(index), false);
     ranges_.insert(ranges_.end(), ranges.begin(), ranges.end());
   }

@@ -34,6 +34,7 @@ bool componentTypeOf(uint64_t gl_type, ComponentType& type) {
     case 5121: type = ComponentType::kUint8; return true;
     case 5122: type = ComponentType::kInt16; return true;
     case 5123: type = ComponentType::kUint16; return true;
+    case 5124: type = ComponentType::kInt32; return true;
     case 5125: type = ComponentType::kUint32; return true;
     case 5126: type = ComponentType::kFloat32; return true;
     default: return false;
@@ -142,9 +143,10 @@ class BufferLoader {
     uint64_t length = 0;
     MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, length));
     const bool has_uri = findMember(json, "uri") != nullptr;
-    const bool is_bin = !has_uri && number == 0 && glb_ != nullptr && glb_->has_bin;
+    size_t chunk = kNoChunk;
+    MCC_GLTF_TRY(findChunk(json, path, number, chunk));
     // The views of a placeholder are decoded from other buffers.
-    if (isPlaceholder(json) || (!has_uri && !is_bin)) {
+    if (isPlaceholder(json) || (!has_uri && chunk == kNoChunk)) {
       document_.buffers.emplace_back();
       document_.same_buffers.push_back(number);
       document_.missing_buffers.push_back(!isPlaceholder(json));
@@ -152,8 +154,9 @@ class BufferLoader {
     }
     std::span<const uint8_t> bytes;
     std::string file;
-    if (is_bin) {
-      bytes = glb_->bin;
+    if (chunk != kNoChunk) {
+      bytes = glb_->chunks[chunk].bytes;
+      chunk_users_[chunk].push_back(number);
     } else {
       MCC_GLTF_TRY(fetch(json, path, file, bytes));
     }
@@ -168,18 +171,54 @@ class BufferLoader {
     return {};
   }
 
-  /// Finds buffers of the same file, after all were loaded.
+  /// Finds buffers of the same file or chunk, after all were loaded.
   void findSame() {
-    for (const auto& [file, users] : users_) {
-      const auto isShorter = [&](uint32_t a, uint32_t b) {
-        return document_.buffers[a].size() < document_.buffers[b].size();
-      };
-      const uint32_t longest = *std::max_element(users.begin(), users.end(), isShorter);
-      for (const uint32_t user : users) document_.same_buffers[user] = longest;
-    }
+    for (const auto& [file, users] : users_) shareLongest(users);
+    for (const auto& [chunk, users] : chunk_users_) shareLongest(users);
+  }
+
+  /// Returns the numbers of the chunks with buffers.
+  std::set<size_t> usedChunks() const {
+    std::set<size_t> used;
+    for (const auto& [chunk, users] : chunk_users_) used.insert(chunk);
+    return used;
   }
 
  private:
+  static constexpr size_t kNoChunk = ~size_t{0};
+
+  void shareLongest(const std::vector<uint32_t>& users) {
+    const auto isShorter = [&](uint32_t a, uint32_t b) {
+      return document_.buffers[a].size() < document_.buffers[b].size();
+    };
+    const uint32_t longest = *std::max_element(users.begin(), users.end(), isShorter);
+    for (const uint32_t user : users) document_.same_buffers[user] = longest;
+  }
+
+  /// Finds the chunk of a GLB that holds a buffer: the one it names, or that of the first buffer.
+  Result findChunk(const Json& json, const std::string& path, uint32_t number,
+                   size_t& chunk) const {
+    const bool has_uri = findMember(json, "uri") != nullptr;
+    if (findMember(json, "chunk") == nullptr) {
+      const bool is_bin = !has_uri && number == 0 && glb_ != nullptr && glb_->has_bin;
+      chunk = is_bin ? glb_->bin_chunk : kNoChunk;
+      return {};
+    }
+    uint64_t named = 0;
+    MCC_GLTF_TRY(readUnsigned(json, "chunk", path, kMaxCount, named));
+    const std::string where = path + "/chunk";
+    if (has_uri) return error(where, "the buffer has a URI, too");
+    if (glb_ == nullptr) return error(where, "only a GLB has chunks");
+    if (named >= glb_->chunks.size()) {
+      return error(where, "there is no chunk " + std::to_string(named));
+    }
+    if (glb_->chunks[named].type != kBinChunk) {
+      return error(where, "chunk " + std::to_string(named) + " is not a BIN chunk");
+    }
+    chunk = named;
+    return {};
+  }
+
   /// Fetches the bytes of a buffer. `file` stays empty for a data URI.
   Result fetch(const Json& json, const std::string& path, std::string& file,
                std::span<const uint8_t>& bytes) {
@@ -207,6 +246,7 @@ class BufferLoader {
   Document& document_;
   std::map<std::string, std::span<const uint8_t>> files_;  ///< bytes by path
   std::map<std::string, std::vector<uint32_t>> users_;     ///< numbers of buffers by path
+  std::map<size_t, std::vector<uint32_t>> chunk_users_;    ///< and by chunk
 };
 
 /// Parses where the bytes of a view are, and finds the part of them that exists. `json` is the
@@ -621,7 +661,7 @@ Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file,
   GlbFile glb;
   if (document.is_glb) {
     MCC_GLTF_TRY(readGlb(file, glb));
-    document.other_chunks = glb.other_chunks;
+    document.glb_version = glb.version;
     if (glb.has_trailing_bytes) {
       document.notes.push_back("bytes after the end of the GLB were ignored");
     }
@@ -647,6 +687,7 @@ Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file,
     if (!is_missing) return loaded;
   }
   loader.findSame();
+  document.other_chunks = glb.otherChunks(loader.usedChunks());
   return loadTables(document);
 }
 

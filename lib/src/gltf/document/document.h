@@ -135,21 +135,22 @@ struct Primitive {
 struct Document {
   Json json;
   bool is_glb = false;
+  uint32_t glb_version = 2;  ///< of a GLB
   std::vector<std::span<const uint8_t>> buffers;
   /// Marks the buffers without a URI whose bytes are not in the file, either. glTF allows them,
   /// because extensions may provide the bytes. They have no bytes here.
   std::vector<bool> missing_buffers;
-  /// For each buffer, the number of the longest buffer that comes from the same file, which may be
-  /// itself. Buffer views refer to that number, so that the bytes of a file are kept once. Empty:
-  /// no file is used twice.
+  /// For each buffer, the number of the longest buffer that comes from the same file or chunk,
+  /// which may be itself. Buffer views refer to that number, so that the bytes are kept once.
+  /// Empty: no file is used twice.
   std::vector<uint32_t> same_buffers;
   std::vector<BufferView> views;
   std::vector<Accessor> accessors;
   std::vector<Primitive> primitives;         ///< in the order of the JSON
   std::vector<uint32_t> first_primitive_of;  ///< number of the first primitive of each mesh
   ForeignReferences foreign;
-  std::vector<GlbChunk> other_chunks;
-  uint64_t source_bytes = 0;  ///< size of the file and of the files its buffers came from
+  std::vector<GlbChunk> other_chunks;  ///< that are neither the JSON nor a buffer
+  uint64_t source_bytes = 0;           ///< size of the file and of the files its buffers came from
   /// The bytes that were decoded, apart from our own payloads. There is no limit unless one is set
   /// after loading.
   DecodedBytes decoded;

@@ -129,6 +129,7 @@ constexpr KnownExtension kKnownExtensions[] = {
      [](const Json& object) {
        return hasOnlyWithExtras(object, {"left", "bottom", "right", "top"});
      }},
+    {"EXT_accessor_additional_types"},
     {"EXT_instance_features", hasOnlyFeatureIds},
     {"EXT_lights_image_based"},
     {"EXT_mesh_features", hasOnlyFeatureIds, hasExplicitIds},
@@ -160,6 +161,8 @@ constexpr KnownExtension kKnownExtensions[] = {
      hasOnlyMetadata},
     {"EXT_texture_avif"},
     {"EXT_texture_webp"},
+    {"KHR_accessor_float16"},
+    {"KHR_accessor_float64"},
     {"KHR_animation_pointer", always, never, kNamesNodes},
     {"KHR_draco_mesh_compression", always, always},  // removed with the data that it describes
     {"KHR_gaussian_splatting",

@@ -320,6 +320,7 @@ class LayoutBuilder {
       break;
     }
     first.erase("uri");
+    first.erase("chunk");
     eraseViewExtensions(first);
     first["byteLength"] = layout_.byte_count;
     return first;

@@ -93,11 +93,12 @@ bool isNameOfMade(const Container& container, std::string_view name) {
 namespace {
 
 /// Pads the JSON of a GLB with property tables so that its BIN chunk begins at a multiple of 8, as
-/// EXT_structural_metadata demands for numbers of 64 bits.
+/// EXT_structural_metadata demands for numbers of 64 bits, and glTF 2.1 for such accessors. In
+/// version 3 of a GLB it does so anyway.
 std::string glbText(const Json& json) {
   constexpr size_t kBytesBeforeBin = 28;  // a header of 12 bytes, and two of chunks
   std::string text = printJson(json);
-  if (!mayHaveTables(json)) return text;
+  if (!mayHaveTables(json) && !hasWideAccessors(json)) return text;
   while ((kBytesBeforeBin + text.size()) % 8 != 0) text += ' ';
   return text;
 }
@@ -108,7 +109,8 @@ Result writePackage(const Container& container, Json json, const BufferContent& 
                     const std::vector<GlbChunk>& other_chunks, Package& package) {
   if (!container.is_gltf) {
     std::span<uint8_t> bin;
-    MCC_GLTF_TRY(startGlb(glbText(json), buffer.byte_count, other_chunks, package.main, bin));
+    MCC_GLTF_TRY(startGlb(glbText(json), buffer.byte_count, other_chunks, package.main, bin,
+                          container.glb_version));
     return buffer.fill(bin);
   }
   if (buffer.byte_count != 0) {

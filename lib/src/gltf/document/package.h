@@ -39,8 +39,9 @@ struct Package {
 /// How a document is stored.
 struct Container {
   bool is_gltf = false;
-  std::string file_name;  ///< of the main file; empty in memory
-  std::string stem;       ///< the same without its extension
+  std::string file_name;                       ///< of the main file; empty in memory
+  std::string stem;                            ///< the same without its extension
+  uint32_t glb_version = kSmallestGlbVersion;  ///< of a GLB; see writeGlb()
 };
 
 /// Returns the name of the buffer or the fallback of a document: x.0123456789abcdef.bin or
@@ -66,7 +67,7 @@ struct BufferContent {
 
 /// Stores a document; buffers other than buffer 0 must have a URI already. Each byte of buffer 0 is
 /// written once, at its place in the file. Other chunks of a GLB cannot be stored in a .gltf and
-/// are left out.
+/// are left out, and so are those of version 3 that version 2 cannot hold.
 Result writePackage(const Container& container, Json json, const BufferContent& buffer,
                     const std::vector<GlbChunk>& other_chunks, Package& package);
 

@@ -188,10 +188,20 @@ void hideMissingAccessors(size_t accessor_count, Json& root) {
   });
 }
 
+bool hasWideAccessors(const Json& root) {
+  const Json& accessors = arrayOf(root, "accessors");
+  return std::any_of(accessors.begin(), accessors.end(), [](const Json& accessor) {
+    uint64_t type = 0;
+    return asUnsigned(findMember(accessor, "componentType"), type) &&
+           (type == 5130 || type == 5134 || type == 5135);
+  });
+}
+
 ForeignReferences findForeignReferences(const Json& root) {
   ForeignReferences foreign;
   walkKnown(root, foreign);
   foreign.has_tables = mayHaveTables(root);
+  foreign.has_wide_accessors = hasWideAccessors(root);
   for (const Json& name : arrayOf(root, "extensionsUsed")) {
     if (name.is_string() && !isKnownExtension(name.get<std::string>())) {
       keepNumbersFor(foreign, name.get<std::string>());

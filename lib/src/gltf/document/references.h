@@ -92,6 +92,9 @@ void visitFilledAccessors(const Json& primitive, const Json& extension, const Vi
   });
 }
 
+/// Whether accessors hold numbers of 64 bits: component types 5130, 5134 and 5135 of glTF 2.1.
+bool hasWideAccessors(const Json& root);
+
 /// References in extras and in extensions that are not on our list. Anything there that looks like
 /// a reference ("bufferView": 3, "myAccessors": [1, 2]) is treated as one.
 struct ForeignReferences {
@@ -102,11 +105,12 @@ struct ForeignReferences {
   std::string extension;  ///< the first extension that is not on our list
   std::set<uint64_t> views;
   std::set<uint64_t> accessors;
-  bool has_tables = false;  ///< the document may have property tables
+  bool has_tables = false;          ///< the document may have property tables
+  bool has_wide_accessors = false;  ///< see hasWideAccessors()
 
-  /// Returns the power of two by which bytes stay aligned as in the source: property tables may
-  /// hold numbers of 64 bits, and so may what we do not understand.
-  uint32_t alignment() const { return keep_numbers || has_tables ? 8 : 4; }
+  /// Returns the power of two by which bytes stay aligned as in the source: property tables and
+  /// accessors may hold numbers of 64 bits, and so may what we do not understand.
+  uint32_t alignment() const { return keep_numbers || has_tables || has_wide_accessors ? 8 : 4; }
 };
 
 ForeignReferences findForeignReferences(const Json& root);

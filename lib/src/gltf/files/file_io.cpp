@@ -51,19 +51,21 @@ int writeAll(int file, std::span<const uint8_t> bytes) {
   return 0;
 }
 
-Result tooLarge(const std::string& name) {
-  return error(name, "has more than the " + std::to_string(kMaxFileBytes) +
-                         " bytes that a file of glTF can have");
+Result tooLarge(const std::string& name, uint64_t most_bytes) {
+  return error(
+      name, "has more than the " + std::to_string(most_bytes) + " bytes that are read of a file");
 }
 
 /// Returns how far to read a file that begins with these bytes. More than there are means:
 /// continue.
 uint64_t wantedBytes(std::span<const uint8_t> bytes) {
-  constexpr size_t kGlbHeaderBytes = 12;
   constexpr size_t kWhiteSpaceBytes = 65536;  // before the JSON; more is not accepted
   if (bytes.size() < kGlbHeaderBytes) return kGlbHeaderBytes;
-  if (isGlb(bytes)) return uint64_t{glbLength(bytes)} + 1;  // one more shows trailing bytes
-  if (isJsonText(bytes.first(std::min(bytes.size(), kWhiteSpaceBytes)))) return kMaxFileBytes + 1;
+  if (isGlb(bytes)) {
+    return std::min(glbLength(bytes), kMaxFileBytes) + 1;  // one more shows trailing bytes
+  }
+  if (isJsonText(bytes.first(std::min(bytes.size(), kWhiteSpaceBytes))))
+    return kMaxStreamedJson + 1;
   return kWhiteSpaceBytes;
 }
 
@@ -76,7 +78,7 @@ Result readRegularFile(int file, const fs::path& path, std::vector<uint8_t>& byt
   std::error_code code;
   const uintmax_t size = fs::file_size(path, code);
   if (code) return error(textOf(path), "cannot be read: " + code.message());
-  if (size > kMaxFileBytes) return tooLarge(textOf(path));
+  if (size > kMaxFileBytes) return tooLarge(textOf(path), kMaxFileBytes);
   bytes.resize(size);
   size_t done = 0;
   while (done < size) {
@@ -112,7 +114,8 @@ Result readStream(int file, const std::string& name, std::vector<uint8_t>& bytes
     if (count == 0) return {};
     if (count < 0 && errno != EINTR) return error(name, "cannot be read: " + reasonOf(errno));
   }
-  return bytes.size() <= kMaxFileBytes ? Result{} : tooLarge(name);
+  const uint64_t most = isGlb(bytes) ? kMaxFileBytes : kMaxStreamedJson;
+  return bytes.size() <= most ? Result{} : tooLarge(name, most);
 }
 
 Result readFile(const fs::path& path, std::vector<uint8_t>& bytes) {

@@ -15,8 +15,12 @@
 
 namespace mcc::gltf {
 
-/// The largest file that is read. Lengths in a GLB have 32 bits.
-inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 32;
+/// The largest file that is read. Lengths in a GLB of version 3 have 63 bits, but a document is
+/// held in memory.
+inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 36;
+
+/// How much JSON is read from what may never end.
+inline constexpr uint64_t kMaxStreamedJson = uint64_t{1} << 32;
 
 /// Reads a whole file that the user named; what a file names is read by NamedFile. A pipe, a
 /// device, or anything else that is not a regular file is read by readStream(). Errors say what is
@@ -27,7 +31,8 @@ Result readFile(const std::filesystem::path& path, std::vector<uint8_t>& bytes);
 /// to the length in its header, plus what arrived with that, so that loadDocument() sees whether
 /// more bytes follow. Of anything else only the beginning is read.
 /// name  is used in messages.
-/// Errors: it cannot be read; it has more than kMaxFileBytes.
+/// Errors: it cannot be read; it has more than kMaxFileBytes, or JSON of more than
+/// kMaxStreamedJson.
 Result readStream(int file, const std::string& name, std::vector<uint8_t>& bytes);
 
 /// Puts the name of a file before the place in it where something is wrong.

@@ -67,7 +67,7 @@ size_t NamedFile::readSome(void* to, size_t byte_count) {
 Result NamedFile::read(std::vector<uint8_t>& bytes) {
   if (size_ > kMaxFileBytes) {
     return error("", "has more than the " + std::to_string(kMaxFileBytes) +
-                         " bytes that a file of glTF can have");
+                         " bytes that are read of a file");
   }
   bytes.resize(size_);
   for (size_t done = 0; done < bytes.size();) {

@@ -103,7 +103,8 @@ Json optionsJson(const ConvertOptions& options) {
                {"texcoord_bits", options.texcoord_bits},
                {"color_bits", options.color_bits},
                {"tangent_bits", options.tangent_bits},
-               {"weight_bits", options.weight_bits}};
+               {"weight_bits", options.weight_bits},
+               {"glb_version", static_cast<uint32_t>(options.glb_version)}};
   if (options.preview_triangles == kPreviewsByShare) {
     json["preview_triangles"] = "2 %";
   } else if (options.preview_triangles != kNoPreviews) {
