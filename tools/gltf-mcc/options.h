@@ -59,9 +59,12 @@ struct Option {
   std::function<void(int)> pick;      ///< gets the number of the word, in place of `target`
   std::function<void()> then;         ///< called when `target` is set
   std::vector<std::string> excludes;  ///< names of options of the same command
-  std::string needs;                  ///< the name of an option without which this one has no sense
-  int count = 0;                      ///< numbers in one value; 0: as many as there are
-  bool is_list = false;               ///< numbers are separated by commas
+  /// The value if none is given, as with "--quality" at the end or before a word that does not
+  /// begin with a digit; empty: a value is needed.
+  std::string standard;
+  std::string needs;     ///< the name of an option without which this one has no sense
+  int count = 0;         ///< numbers in one value; 0: as many as there are
+  bool is_list = false;  ///< numbers are separated by commas
   bool is_required = false;
   bool is_hidden = false;  ///< help does not list it
 

@@ -183,6 +183,29 @@ std::string missingText(const CLI::App& app, const Command& command,
   return "";
 }
 
+/// Returns the words with values for options that may be given without one.
+std::vector<std::string> withStandardValues(const Program& program,
+                                            std::vector<std::string> words) {
+  const auto is_standard = [&](const std::string& word, const Option& option) {
+    return !option.standard.empty() && option.shownNames().back() == word;
+  };
+  for (size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
+    const bool has_value =
+        i + 1 < words.size() && !words[i + 1].empty() &&
+        std::string_view("0123456789.").find(words[i + 1][0]) != std::string_view::npos;
+    if (has_value) continue;
+    for (const Command& command : program.commands) {
+      const auto option =
+          std::find_if(command.options.begin(), command.options.end(),
+                       [&](const Option& one) { return is_standard(words[i], one); });
+      if (option == command.options.end()) continue;
+      words[i] += "=" + option->standard;
+      break;
+    }
+  }
+  return words;
+}
+
 const Command* chosenOf(const CLI::App& app, const Program& program) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();
   if (chosen.empty()) return nullptr;
@@ -204,8 +227,9 @@ Parsed parse(const Program& program, const std::vector<std::string>& words) {
   }
   Parsed parsed;
   try {
-    app.parse(
-        std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes the last first
+    std::vector<std::string> given = withStandardValues(program, words);
+    std::reverse(given.begin(), given.end());  // CLI11 takes the last first
+    app.parse(std::move(given));
     parsed.command = chosenOf(app, program);
     return parsed;
   } catch (const CLI::CallForHelp&) {

@@ -64,6 +64,18 @@ Json primitiveJson(const PrimitiveReport& primitive) {
   return json;
 }
 
+Json choiceJson(const QualityChoice& choice) {
+  Json json = {{"name", choice.name},
+               {"attributes", choice.attribute_count},
+               {"exact_attributes", choice.exact_count},
+               {"why", choice.why}};
+  if (choice.most_bits != 0) {
+    json["fewest_bits"] = choice.fewest_bits;
+    json["most_bits"] = choice.most_bits;
+  }
+  return json;
+}
+
 Json contentsJson(const Contents& contents) {
   return {{"geometry_bytes", contents.geometry_bytes},
           {"image_bytes", contents.image_bytes},
@@ -88,6 +100,8 @@ Json optionsJson(const ConvertOptions& options) {
           {"max_position_error", options.max_position_error},
           {"is_error_relative", options.is_error_relative},
           {"position_lattice", lattice},
+          {"step", options.step},
+          {"quality", options.quality},
           {"indices_only", options.indices_only},
           {"drop_unused", options.drop_unused},
           {"fallback", options.fallback},
@@ -115,20 +129,24 @@ Json reportJson(const ConvertReport& report, const ConvertOptions& options) {
   for (const auto& primitive : report.primitives) primitives.push_back(primitiveJson(primitive));
   std::vector<std::string> notes = report.notes;
   notes.insert(notes.end(), report.remarks.begin(), report.remarks.end());
-  return {{"options", optionsJson(options)},
-          {"input_bytes", report.input_bytes},
-          {"output_bytes", report.output_bytes},
-          {"fallback_bytes", report.fallback_bytes},
-          {"input_contents", contentsJson(report.input_contents)},
-          {"output_contents", contentsJson(report.output_contents)},
-          {"copied", report.copied},
-          {"checked", report.checked},
-          {"encode_seconds", report.encode_seconds},
-          {"decode_seconds", report.decode_seconds},
-          {"check_seconds", report.check_seconds},
-          {"payloads", payloads},
-          {"primitives", primitives},
-          {"notes", notes}};
+  Json json = {{"options", optionsJson(options)},
+               {"input_bytes", report.input_bytes},
+               {"output_bytes", report.output_bytes},
+               {"fallback_bytes", report.fallback_bytes},
+               {"input_contents", contentsJson(report.input_contents)},
+               {"output_contents", contentsJson(report.output_contents)},
+               {"copied", report.copied},
+               {"checked", report.checked},
+               {"encode_seconds", report.encode_seconds},
+               {"decode_seconds", report.decode_seconds},
+               {"check_seconds", report.check_seconds},
+               {"payloads", payloads},
+               {"primitives", primitives},
+               {"notes", notes}};
+  for (const QualityChoice& choice : report.quality_choices) {
+    json["quality_choices"].push_back(choiceJson(choice));
+  }
+  return json;
 }
 
 namespace {
