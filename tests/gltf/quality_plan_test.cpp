@@ -221,6 +221,20 @@ TEST(QualityPlan, FarTexcoords) {
   }
 }
 
+/// The longest side is a whole and even number of steps, so symmetric models stay symmetric.
+TEST(QualityPlan, EndsAndMiddleArePoints) {
+  for (const double pixels : {30.0, 1000.0, 4096.0, 70000.0}) {
+    Builder builder;
+    builder.addMesh({Sheet(24).addTo(builder)});
+    const RoundTrip trip = roundTrip(builder, ofPixels(pixels));
+    ASSERT_EQ(trip.error, "");
+    const std::vector<float> positions = decodedOf(trip, "POSITION");
+    for (const size_t column : {0u, 12u, 24u}) {
+      EXPECT_NEAR(positions[3 * column], static_cast<double>(column) / 24, 1e-6) << pixels;
+    }
+  }
+}
+
 TEST(QualityPlan, LostTrianglesAreCounted) {
   Sheet sheet(20);
   for (size_t i = 0; i < sheet.positions.size(); i += 3) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <memory>
 
+#include "gltf/compress/quality.h"
+
 namespace mcc::tool {
 namespace {
 
@@ -50,8 +52,6 @@ double stepOf(const std::string& text) {
 
 /// Reads "2048px" or, as a share of the model, "1/2048" or "0.0005". Returns pixels.
 double qualityOf(const std::string& text) {
-  constexpr double kLeast = 16;
-  constexpr double kMost = 1 << 20;
   const std::string_view all = text;
   double pixels = 0;
   double share = 0;
@@ -63,13 +63,13 @@ double qualityOf(const std::string& text) {
   } else if (readNumber(all, share) && share > 0) {
     pixels = 1 / share;
     is_known = share < 1;
-    if (share >= kLeast) {
+    if (share >= gltf::kLeastPixels) {
       throw UsageError("--quality", fmt::format("{} of what? Write {}px for a size on the screen, "
                                                 "or 1/{} for a share of the model",
                                                 text, text, text));
     }
   }
-  if (is_known && pixels >= kLeast && pixels <= kMost) return pixels;
+  if (is_known && pixels >= gltf::kLeastPixels && pixels <= gltf::kMostPixels) return pixels;
   throw UsageError("--quality", fmt::format("takes 16px to 1048576px, or 1/16 to 1/1048576 of the "
                                             "model's size, not {}",
                                             text));
