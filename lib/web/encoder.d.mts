@@ -28,7 +28,7 @@ export interface EncodeOptions {
   tangentBits?: number;
   /** Default 12. */
   weightBits?: number;
-  /** Every float keeps every bit. Excludes maxPositionError, positionLattice, and bits other than 0. */
+  /** Every float keeps every bit. Excludes maxPositionError, positionLattice, step, quality, and bits other than 0. */
   lossless?: boolean;
   /** No position moves farther than this. Excludes positionBits and positionLattice. */
   maxPositionError?: number;
@@ -39,6 +39,17 @@ export interface EncodeOptions {
    * together.
    */
   positionLattice?: [number, number, number, number];
+  /**
+   * The step of a lattice of positions through the origin, a power of two such as 2 ** -10, so that everything converted
+   * with the same step fits together. Excludes positionBits, maxPositionError and positionLattice.
+   */
+  step?: number;
+  /**
+   * How large a mesh is drawn, from 16 to 2 ** 20 pixels: no position moves by more than a pixel, and the bits of all other
+   * attributes follow as well. 4096 is usual. The report's `quality_choices` say what was chosen. Excludes all bits,
+   * maxPositionError, positionLattice and step.
+   */
+  quality?: number;
   /** What shares a lattice of positions. Default 'mesh'. */
   grid?: 'mesh' | 'scene' | 'primitive';
   keepVertexOrder?: boolean;

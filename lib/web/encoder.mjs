@@ -22,13 +22,17 @@ const OTHERS = {
   maxPositionError: [(maxPositionError) => Number.isFinite(maxPositionError) && maxPositionError > 0, 'a number above 0'],
   positionLattice: [(lattice) => (Array.isArray(lattice) || ArrayBuffer.isView(lattice)) && lattice.length === 4 && lattice.every(Number.isFinite) && lattice[3] > 0,
     'four numbers: x, y, z of a point and the step'],
+  step: [isStep, 'a power of two from 2 ** -126 to 2 ** 127'],
+  quality: [(pixels) => typeof pixels === 'number' && pixels >= 16 && pixels <= 2 ** 20, 'a number of pixels from 16 to 1048576'],
   blockTriangles: [(count) => Number.isInteger(count) && count >= 0 && count < 2 ** 32 - 1, 'a number of triangles, or 0 for no blocks'],
   fallback: [(fallback) => fallback === false, 'false: a fallback is a second file, which the command line tool writes'],
   meshoptDecoder: [isDecoder, 'MeshoptDecoder of the npm package meshoptimizer, where WebAssembly is supported'],
 };
 /** Options that exclude others, as in the command line tool. */
 const CONTRADICTIONS = {
-  lossless: [...Object.keys(BITS), 'maxPositionError', 'positionLattice'],
+  lossless: [...Object.keys(BITS), 'maxPositionError', 'positionLattice', 'step', 'quality'],
+  quality: [...Object.keys(BITS), 'maxPositionError', 'positionLattice', 'step'],
+  step: ['positionBits', 'maxPositionError', 'positionLattice'],
   maxPositionError: ['positionBits', 'positionLattice'],
   positionLattice: ['positionBits'],
 };
@@ -199,8 +203,13 @@ function checkOption(name, value) {
   }
 }
 
+/** Returns whether a number is a power of two that a float holds with all its bits. */
+function isStep(step) {
+  return typeof step === 'number' && step >= 2 ** -126 && step <= 2 ** 127 && 2 ** Math.round(Math.log2(step)) === step;
+}
+
 function setOptions(exports, options) {
-  const { grid = 'mesh', maxPositionError, prefer = 'balanced', positionLattice, blockTriangles } = options;
+  const { grid = 'mesh', maxPositionError, prefer = 'balanced', positionLattice, blockTriangles, step, quality } = options;
   const flag = (name) => (options[name] ? 1 : 0);
   exports.setBits(...Object.entries(BITS).map(([name, [standard]]) => options[name] ?? standard));
   exports.setModes(flag('lossless'), flag('indicesOnly'), GRIDS.indexOf(grid), flag('keepVertexOrder'),
@@ -208,4 +217,6 @@ function setOptions(exports, options) {
   if (blockTriangles !== undefined) exports.setBlocks(blockTriangles);
   if (maxPositionError !== undefined) exports.setMaxError(maxPositionError, flag('isErrorRelative'));
   if (positionLattice !== undefined) exports.setLattice(...positionLattice);
+  if (step !== undefined) exports.setStep(step);
+  if (quality !== undefined) exports.setQuality(quality);
 }

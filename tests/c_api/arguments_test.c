@@ -620,6 +620,26 @@ static void test_options_of_documents(const uint8_t* glb, size_t glb_bytes) {
     options.max_position_error = kErrors[i];
     EXPECT_OF(error_of_convert(glb, glb_bytes, &options) == bad, "max_position_error", i);
   }
+  for (i = 0; i < COUNT_OF(kErrors); ++i) {
+    mcc_convert_options_init(&options, sizeof options);
+    options.step = kErrors[i];
+    EXPECT_OF(error_of_convert(glb, glb_bytes, &options) == bad, "step", i);
+  }
+  for (i = 0; i < COUNT_OF(kErrors); ++i) {
+    mcc_convert_options_init(&options, sizeof options);
+    options.quality = kErrors[i];
+    EXPECT_OF(error_of_convert(glb, glb_bytes, &options) == bad, "quality", i);
+  }
+  mcc_convert_options_init(&options, sizeof options);
+  options.quality = 4096;
+  EXPECT(error_of_convert(glb, glb_bytes, &options) == 0);
+  options.step = 1;
+  EXPECT(error_of_convert(glb, glb_bytes, &options) == bad);
+  mcc_convert_options_init(&options, sizeof options);
+  options.step = 0.3;
+  EXPECT(error_of_convert(glb, glb_bytes, &options) == bad);
+  options.step = 0.25;
+  EXPECT(error_of_convert(glb, glb_bytes, &options) == 0);
   for (i = 0; i < COUNT_OF(kSteps); ++i) {
     mcc_convert_options_init(&options, sizeof options);
     options.position_lattice = &lattice;

@@ -313,6 +313,27 @@ TEST_F(Cli, WrongUsageSaysWhatIsWrong) {
     expectSays(std::string("convert in.glb out.glb --position-lattice ") + lattice,
                "--position-lattice: needs finite numbers, and a step that is greater than 0");
   }
+  expectSays("convert in.glb out.glb --step 0.001",
+             "--step: 0.001 is not a power of two; the nearest are 2^-10 (0.0009765625) and 2^-9 "
+             "(0.001953125)");
+  for (const char* step : {"0", "-1", "2^-127", "2^128", "2^", "2^0.5", "2^1x", "1e99", "1e-99",
+                           "nan", "inf", "1/1024", "x"}) {
+    expectSays(std::string("convert in.glb out.glb --step ") + step,
+               "--step: takes a power of two from 2^-126 to 2^127, as in 2^-10 or 0.0009765625, "
+               "not " +
+                   std::string(step));
+  }
+  for (const char* quality : {"0px", "15px", "1048577px", "-1", "px", "1/", "1/0", "1/15", "1/1e7",
+                              "0", "0.5", "1", "1e-9", "nan", "inf", "high", "12pt", "1/x"}) {
+    expectSays(
+        std::string("convert in.glb out.glb --quality=") + quality,
+        "--quality: takes 16px to 1048576px, or 1/16 to 1/1048576 of the model's size, not " +
+            std::string(quality));
+  }
+  expectSays(
+      "convert --quality 2048 in.glb out.glb",
+      "--quality: 2048 of what? Write 2048px for a size on the screen, or 1/2048 for a share "
+      "of the model");
   fs::create_directory(folder_ / "folder");
   expectSays("convert folder",
              "convert: folder: is a folder; to convert all models in it, write: -o DIR folder");
@@ -343,6 +364,61 @@ TEST_F(Cli, ListsTakeOneWord) {
   ASSERT_EQ(run("tree --view 1,0,0 in.glb before.svg").status, 0);
   ASSERT_EQ(run("tree in.glb behind.svg --view 1,0,0").status, 0);
   EXPECT_EQ(contentOf(folder_ / "before.svg"), contentOf(folder_ / "behind.svg"));
+}
+
+TEST_F(Cli, AStepHasTwoSpellings) {
+  ASSERT_EQ(run("convert --step 2^-10 in.glb power.glb").status, 0);
+  ASSERT_EQ(run("convert --step 0.0009765625 in.glb number.glb").status, 0);
+  ASSERT_EQ(run("convert --position-lattice 0,0,0,0.0009765625 in.glb lattice.glb").status, 0);
+  EXPECT_EQ(contentOf(folder_ / "power.glb"), contentOf(folder_ / "number.glb"));
+  EXPECT_EQ(contentOf(folder_ / "power.glb"), contentOf(folder_ / "lattice.glb"));
+}
+
+/// Options that each say how accurate positions are.
+TEST_F(Cli, StepAndQualityExcludeOthers) {
+  for (const char* other : {"--lossless", "--position-bits 12", "--max-position-error 1",
+                            "--position-lattice 0,0,0,1", "--quality=64px"}) {
+    const auto result = run(std::string("convert in.glb out.glb --step 1 ") + other);
+    EXPECT_EQ(result.status, 2) << other;
+    EXPECT_NE(result.err.find(" excludes "), std::string::npos) << result.err;
+  }
+  for (const char* other : {"--lossless", "--normal-bits 12", "--position-bits 12",
+                            "--max-position-error 1", "--position-lattice 0,0,0,1"}) {
+    const auto result = run(std::string("convert in.glb out.glb --quality=64px ") + other);
+    EXPECT_EQ(result.status, 2) << other;
+    EXPECT_NE(result.err.find(" excludes "), std::string::npos) << result.err;
+  }
+}
+
+/// One quality has three spellings, and none at all stands for 4096px, wherever it is.
+TEST_F(Cli, AQualityHasThreeSpellings) {
+  const auto madeBy = [&](const std::string& line) {
+    const auto result = run("convert " + line);
+    EXPECT_EQ(result.status, 0) << line << result.err;
+    return contentOf(folder_ / "out.glb");
+  };
+  const std::string quarter = madeBy("--quality 1024px in.glb out.glb");
+  EXPECT_EQ(madeBy("in.glb out.glb --quality 1/1024"), quarter);
+  EXPECT_EQ(madeBy("in.glb --quality=0.0009765625 out.glb"), quarter);
+  const std::string standard = madeBy("in.glb out.glb --quality 4096px");
+  EXPECT_NE(standard, quarter);
+  EXPECT_EQ(madeBy("in.glb out.glb --quality"), standard);
+  EXPECT_EQ(madeBy("--quality in.glb out.glb"), standard);
+  EXPECT_EQ(madeBy("in.glb out.glb --quality --prefer balanced"), standard);
+  EXPECT_NE(madeBy("in.glb out.glb"), standard);
+}
+
+TEST_F(Cli, QualityIsExplained) {
+  const auto result = run("convert in.glb out.glb --quality");
+  EXPECT_NE(
+      result.out.find("\n  quality     POSITION 12 bits: nothing moves farther than 1/4096 of "
+                      "the longest side of its mesh\n"),
+      std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find("\n              NORMAL 10 bits: at most 0.25 degrees\n"),
+            std::string::npos)
+      << result.out;
+  EXPECT_EQ(run("convert in.glb out.glb").out.find("  quality "), std::string::npos);
 }
 
 TEST_F(Cli, HelpAndVersion) {

@@ -48,6 +48,8 @@ TEST_F(ReportSchema, DescribesConversions) {
   const std::string torus = "convert " + samplePath("torus.glb") + " out.glb ";
   expectValid(torus + "--lossless");
   expectValid(torus + "--max-position-error 0.001 --fallback");
+  expectValid(torus + "--step 2^-10");
+  expectValid(torus + "--quality 2048px");
   expectValid(torus + "--position-lattice 0,0,0,0.001 --keep-vertex-order --keep-triangle-order");
   expectValid(torus + "--indices-only");
   store("triangle.gltf", R"({"asset": {"version": "2.0"}})");

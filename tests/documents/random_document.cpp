@@ -1273,6 +1273,12 @@ class Maker {
       lattice.step = static_cast<float>(std::pow(10.0, real(-5, 1)));
       for (float& origin : lattice.origin) origin = static_cast<float>(real(-2, 2));
       options.position_lattice = lattice;
+    } else if (!options.lossless && chance(6)) {
+      options.step = std::ldexp(1.0, static_cast<int>(below(20)) - 16);
+    }
+    if (options.max_position_error == 0 && !options.position_lattice && options.step == 0 &&
+        !options.lossless && chance(8)) {
+      options.quality = std::exp2(real(4, 20));
     }
     options.indices_only = chance(10);
     options.grid = static_cast<Grid>(below(3));
@@ -1447,6 +1453,8 @@ std::string describe(const ConvertOptions& options) {
         (options.is_error_relative ? " relative" : ""));
   if (options.position_lattice)
     add("lattice step " + std::to_string(options.position_lattice->step));
+  if (options.step != 0) add("step " + std::to_string(options.step));
+  if (options.quality != 0) add("quality " + std::to_string(options.quality));
   if (options.indices_only) add("indices-only");
   if (options.grid != standard.grid)
     add(options.grid == Grid::kScene ? "grid scene" : "grid primitive");

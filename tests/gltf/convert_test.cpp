@@ -571,6 +571,82 @@ TEST(Convert, AGivenLatticeMakesTilesMeet) {
   EXPECT_EQ(borders[0], borders[1]);
 }
 
+/// Two meshes that touch, of different extents and in files of their own, agree on nothing but the
+/// step.
+TEST(Convert, OneStepMakesBordersMeet) {
+  ConvertOptions options;
+  options.keep_vertex_order = true;
+  options.step = 0x1p-7;
+  std::vector<float> borders[2];
+  for (const uint32_t part : {0u, 1u}) {
+    Builder builder;
+    Sheet sheet(20);
+    for (size_t i = 0; i < sheet.positions.size(); i += 3) {
+      float& x = sheet.positions[i];
+      if (part == 1) x = 1 + 37.3f * (1 - x);
+      sheet.positions[i + 1] -= 5.3f;
+    }
+    builder.addMesh({sheet.addTo(builder)});
+    const RoundTrip trip = roundTrip(builder, options);
+    ASSERT_EQ(trip.error, "");
+    EXPECT_LE(trip.report.payloads[0].attributes[0].max_error, 0x1p-8);
+    const std::vector<float> positions = floatsInOrder(trip.decoded, 0);
+    for (size_t i = 0; i < positions.size(); i += 3) {
+      for (size_t c = i; c < i + 3; ++c) EXPECT_EQ(std::remainder(positions[c], 0x1p-7f), 0);
+      if (sheet.positions[i] == 1)
+        borders[part].insert(borders[part].end(), &positions[i], &positions[i] + 3);
+    }
+  }
+  EXPECT_EQ(borders[0].size(), 63u);
+  EXPECT_EQ(borders[0], borders[1]);
+}
+
+TEST(Convert, PositionsBeyondTheStepsLatticeStayExact) {
+  Builder builder;
+  Sheet sheet(20);
+  for (float& x : sheet.positions) x += 1e6f;
+  builder.addMesh({sheet.addTo(builder)});
+  ConvertOptions options;
+  options.step = 0x1p-10;
+  const RoundTrip trip = roundTrip(builder, options);
+  ASSERT_EQ(trip.error, "");
+  EXPECT_EQ(trip.report.payloads[0].attributes[0].bits, 0);
+  EXPECT_EQ(trip.report.payloads[0].attributes[0].max_error, 0);
+  EXPECT_TRUE(hasNote(trip.report, "more than 2^24 steps from the origin of the given lattice"));
+  options.step = 0x1p-3;
+  const RoundTrip coarse = roundTrip(builder, options);
+  ASSERT_EQ(coarse.error, "");
+  EXPECT_EQ(coarse.report.payloads[0].attributes[0].bits, 23);
+}
+
+TEST(Convert, WrongStepsAreRefused) {
+  const double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const double kInfinity = std::numeric_limits<double>::infinity();
+  Builder builder;
+  builder.addMesh({Sheet(5).addTo(builder)});
+  const auto refusalOf = [&](const ConvertOptions& options) {
+    return roundTrip(builder, options).error;
+  };
+  ConvertOptions options;
+  for (const double step :
+       {0.001, 3.0, -1.0, -0x1p-10, 0x1p-127, 0x1p128, 0x1.8p-10, 1e-320, kNaN, kInfinity}) {
+    options.step = step;
+    EXPECT_EQ(refusalOf(options), "step is not a power of two from 2^-126 to 2^127") << step;
+  }
+  for (const double step : {0x1p-126, 0x1p127}) {
+    options.step = step;
+    EXPECT_EQ(refusalOf(options), "") << step;
+  }
+  options.step = 1;
+  for (const int other : {0, 1, 2}) {
+    ConvertOptions both = options;
+    both.lossless = other == 0;
+    if (other == 1) both.max_position_error = 1;
+    if (other == 2) both.position_lattice = Lattice{{0, 0, 0, 0}, 1};
+    EXPECT_EQ(refusalOf(both), "step excludes lossless, max_position_error and position_lattice");
+  }
+}
+
 TEST(Convert, ExtensionsThatMayNeedTheOrderKeepIt) {
   for (const bool on_mesh : {false, true}) {
     Builder builder;

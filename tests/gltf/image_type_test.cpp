@@ -36,7 +36,8 @@ TEST(ImageType, OtherFilesHaveNone) {
   for (const std::string& bytes :
        {std::string(), std::string("????????????"), std::string(12, '\0'),
         std::string("sC??\x4d\0", 6), std::string("sB??\x4e\0", 6), std::string("sB??\x4d\1", 6),
-        std::string("?????\0", 6), std::string("RIFF????WAVE"), std::string("????ftypmp42")}) {
+        std::string("?????\0", 6), std::string("RIFF????WAVE"), std::string("RIFF"),
+        std::string("RIFF???"), std::string("????ftypmp42")}) {
     EXPECT_EQ(imageTypeOfText(bytes), "") << bytes;
   }
 }

@@ -76,7 +76,7 @@ class Documents(unittest.TestCase):
         usual = gltf_mcc.convert(data)
         for options in ({"position_bits": 9}, {"normal_bits": 7}, {"lossless": True}, {"indices_only": True},
                         {"keep_vertex_order": True}, {"keep_triangle_order": True}, {"max_position_error": 0.01},
-                        {"prefer": "speed", "block_triangles": 100}, {"position_lattice": (0, 0, 0, 0.125)}):
+                        {"prefer": "speed", "block_triangles": 100}, {"position_lattice": (0, 0, 0, 0.125)}, {"step": 2**-7}, {"quality": 1024}):
             self.assertNotEqual(gltf_mcc.convert(data, **options), usual, options)
         self.assertEqual(gltf_mcc.convert(data, thread_count=2, grid="scene"), usual)
 
@@ -95,6 +95,14 @@ class Documents(unittest.TestCase):
             gltf_mcc.convert(data, position_lattice=(0, 0, 0))
         with self.assertRaises(gltf_mcc.Error):
             gltf_mcc.convert(data, position_lattice=(0, 0, 0, 0))
+        for wrong in ({"step": 0.001}, {"step": 1, "max_position_error": 1}):
+            with self.assertRaisesRegex(gltf_mcc.Error, "step"):
+                gltf_mcc.convert(data, **wrong)
+        for wrong in ({"quality": 15}, {"quality": float("nan")}, {"quality": 64, "step": 1}):
+            with self.assertRaisesRegex(gltf_mcc.Error, "quality"):
+                gltf_mcc.convert(data, **wrong)
+        with self.assertRaisesRegex(ValueError, "quality"):
+            gltf_mcc.convert(data, quality=64, normal_bits=8)
 
     def test_refusals(self):
         with self.assertRaisesRegex(gltf_mcc.Error, "neither a GLB nor JSON") as caught:

@@ -588,6 +588,37 @@ class Comparison {
     return box;
   }
 
+  /// The same for a quality. Nothing is known of textures here, so all count as the smallest.
+  Bound askedByQuality(const Attribute& attribute, const Box& own, const Box& positions) const {
+    const double share = 1 / options_.quality;
+    const double radians = 0.25 / 180 * std::numbers::pi * std::sqrt(4096 * share);
+    const double unit = std::max(1.0, own.largest());
+    const bool is_base = attribute.target < 0;
+    const bool is_vector = attribute.source.type == "VEC3";
+    Bound bound;
+    const auto allow = [&](double value) {
+      bound.is_exact = false;
+      bound.value = value + std::ldexp(own.largest() + own.side(), -22);
+    };
+    if (attribute.name == "POSITION" && is_vector) {
+      allow(share * std::max(positions.side(), is_base ? 0 : own.largest()));
+      if (is_base) bound.value = bound.distance = share * positions.side();
+    } else if (attribute.name == "NORMAL" && is_vector) {
+      allow(radians * (is_base ? own.largest() : 1));
+      if (is_base) bound.radians = radians + 1e-5;
+    } else if (attribute.name == "TANGENT" && (is_vector || attribute.source.type == "VEC4")) {
+      allow(radians);
+      if (is_base) bound.radians = 2 * radians + 0.004;
+    } else if (isNamed(attribute.name, "TEXCOORD") && attribute.source.type == "VEC2") {
+      allow(std::max(0.25 / 1024, 0.25 * share * std::min(1.0, own.side())));
+    } else if (isNamed(attribute.name, "COLOR") && (is_vector || attribute.source.type == "VEC4")) {
+      allow(0.5 / 255 * unit);
+    } else if (isNamed(attribute.name, "WEIGHTS") && attribute.source.type == "VEC4") {
+      allow(2 * share * unit);
+    }
+    return bound;
+  }
+
   /// Returns the deviation that the options allow, whatever the report says.
   Bound askedFor(const Attribute& attribute, const std::vector<Attribute>& all,
                  const Box& positions) const {
@@ -598,13 +629,15 @@ class Comparison {
     Box own;
     own.add(source);
     if (!own.is_finite) return bound;
+    if (options_.quality != 0) return askedByQuality(attribute, own, positions);
     const QuantizationBits& bits = options_;
     const auto allow = [&](double value) {
       bound.is_exact = false;
       bound.value = value + std::ldexp(own.largest() + own.side(), -22);
     };
     const double position_step =
-        options_.position_lattice ? options_.position_lattice->step
+        options_.step != 0          ? options_.step
+        : options_.position_lattice ? options_.position_lattice->step
         : options_.max_position_error > 0
             ? 2 * options_.max_position_error * (options_.is_error_relative ? positions.side() : 1)
         : bits.position_bits == 0 ? 0

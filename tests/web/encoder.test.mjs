@@ -69,6 +69,16 @@ test('there and back', async () => {
   assert.equal(json.meshes.length, readGlb(sample('textured')).json.meshes.length);
 });
 
+test('a step and a quality', async () => {
+  const [usual, step, lattice, fine, coarse] = await Promise.all([{}, { step: 2 ** -10 }, { positionLattice: [0, 0, 0, 2 ** -10] },
+    { quality: 4096 }, { quality: 256 }].map((options) => encodeGlb(sample('torus'), options)));
+  assert.deepEqual(step.glb, lattice.glb);
+  assert.notDeepEqual(step.glb, usual.glb);
+  assert.ok(coarse.glb.length < fine.glb.length);
+  assert.equal(fine.report.quality_choices[0].why, 'nothing moves farther than 1/4096 of the longest side of its mesh');
+  assert.equal(usual.report.quality_choices, undefined);
+});
+
 test('imports nothing', async () => {
   assert.deepEqual(WebAssembly.Module.imports(await WebAssembly.compile(wasm('mcc_encoder'))), []);
 });
@@ -80,7 +90,9 @@ test('what is wrong is said', async () => {
     return error.code;
   });
   for (const options of [{ positionBits: 25 }, { normalBits: 1 }, { positionBits: '14' }, { grid: 'world' }, { maxPositionError: 0 },
-    { positionbits: 14 }, { lossless: 1 }, { effort: 1 }, { prefer: 'beauty' }, { blockTriangles: -1 }, { positionLattice: [0, 0, 0, 0] }, { fallback: true }]) {
+    { positionbits: 14 }, { lossless: 1 }, { effort: 1 }, { prefer: 'beauty' }, { blockTriangles: -1 }, { positionLattice: [0, 0, 0, 0] }, { step: 0.001 }, { step: '1' },
+    { step: 2 ** -127 }, { step: 1, maxPositionError: 1 }, { step: 1, lossless: true }, { quality: 15 }, { quality: 2 ** 20 + 1 },
+    { quality: NaN }, { quality: '64' }, { quality: 64, normalBits: 8 }, { quality: 64, step: 1 }, { quality: 64, lossless: true }, { fallback: true }]) {
     assert.equal(await codeOf(sample('torus'), options), 'BadArgument', JSON.stringify(options));
   }
   assert.equal(await codeOf('torus.glb'), 'BadArgument');

@@ -145,7 +145,7 @@ describe('mutated', () => {
 const ANYTHING = [undefined, null, 0, -1, NaN, Infinity, 1e9, 2n, '', 'x', true, Symbol('s'), [], {}, () => {}, new Uint8Array(3), new ArrayBuffer(4),
   new DataView(new ArrayBuffer(4)), Object.create(null), new Map(), Promise.resolve(), { length: 4 }];
 const OPTIONS = ['decode', 'limits', 'indexType', 'claims', 'order', 'signal', 'payloadBytes', 'decodeBlocks', 'transfer', 'onBlock', 'lossless',
-  'positionBits', 'grid', 'maxPositionError', 'positionLattice', 'prefer', 'fallback', 'meshoptDecoder', 'blockTriangles', 'constructor', 'toString', '__proto__'];
+  'positionBits', 'grid', 'maxPositionError', 'positionLattice', 'step', 'quality', 'prefer', 'fallback', 'meshoptDecoder', 'blockTriangles', 'constructor', 'toString', '__proto__'];
 const LIMITS = ['maxVertices', 'maxTriangles', 'maxAttributes', 'maxPieces', 'maxElements', 'maxOutputBytes', 'maxDecodedBytes'];
 
 test('arguments of all kinds', async () => {

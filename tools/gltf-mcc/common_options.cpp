@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "mcc/glb.h"
+#include "precision_options.h"
 
 namespace mcc::tool {
 
@@ -110,6 +111,8 @@ void addQuantization(Command& command, gltf::ConvertOptions& options) {
       "--position-bits", "--normal-bits",  "--texcoord-bits",
       "--color-bits",    "--tangent-bits", "--weight-bits"};
   addPositionPromises(command, options);
+  addStep(command, options);
+  addQuality(command, options);
   command.addWords("--grid", options.grid,
                    {{"mesh", gltf::Grid::kMesh},
                     {"scene", gltf::Grid::kScene},

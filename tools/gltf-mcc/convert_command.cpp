@@ -271,7 +271,7 @@ void addConvert(Program& program) {
       "buffer next to it (a.gltf: a.HASH.bin). Images in separate files stay separate, but move\n"
       "into a .glb. The result is decoded and compared with the source before it replaces OUT;\n"
       "sizes and measured errors are printed. Positions are set by one of --position-bits,\n"
-      "--max-position-error, --position-lattice and --lossless.\n"
+      "--max-position-error, --position-lattice, --step, --quality and --lossless.\n"
       "IN may already be compressed with Draco or meshoptimizer (version 0 of its codec; the npm\n"
       "package gltf-mcc reads version 1).\n"
       "With -o DIR every IN becomes a file of the same name in DIR. A folder IN stands for the\n"

@@ -144,6 +144,19 @@ const Measure& measureOf(const std::string& name) {
                        [&](const Measure& measure) { return name.starts_with(measure.prefix); });
 }
 
+/// Returns "POSITION 12 bits: why", with "10 to 12 bits" where meshes differ.
+std::string choiceText(const gltf::QualityChoice& choice) {
+  std::string text = gltf::printable(choice.name);
+  if (choice.exact_count != choice.attribute_count) {
+    text += fmt::format(" {}", choice.fewest_bits);
+    if (choice.fewest_bits != choice.most_bits) text += fmt::format(" to {}", choice.most_bits);
+    text += " bits: " + choice.why;
+  }
+  if (choice.exact_count == 0) return text;
+  if (choice.exact_count == choice.attribute_count) return text + " stays exact";
+  return text + fmt::format("; {} of {} stay exact", choice.exact_count, choice.attribute_count);
+}
+
 std::string checkText(const ConvertReport& report) {
   if (!report.checked || report.payloads.empty()) return "";
   return "decoded and compared: every vertex and triangle is there, with no larger errors";
@@ -207,6 +220,10 @@ std::string summaryText(const Converted& converted) {
   }
   if (report.fallback_bytes != 0) {
     lines.add("fallback", grouped(report.fallback_bytes) + " bytes in a second file");
+  }
+  for (const gltf::QualityChoice& choice : report.quality_choices) {
+    const bool is_first = &choice == &report.quality_choices.front();
+    lines.add(is_first ? "quality" : "", choiceText(choice));
   }
   lines.add("errors", accuracyText(report));
   lines.add("check", checkText(report));

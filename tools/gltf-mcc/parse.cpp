@@ -208,6 +208,12 @@ bool mayComeAlone(const Program& program, const std::string& word, std::string& 
   return false;
 }
 
+/// Whether a word is a number, a fraction or a number of pixels, and not the name of a file.
+bool isAmount(std::string_view word) {
+  if (word.ends_with("px")) word.remove_suffix(2);
+  return !word.empty() && word.find_first_not_of("0123456789/.") == std::string_view::npos;
+}
+
 /// Gives options that come alone their values. CLI11 would take the next word, a file, for one.
 std::vector<std::string> withValues(const Program& program, const std::vector<std::string>& words) {
   std::vector<std::string> all;
@@ -217,9 +223,7 @@ std::vector<std::string> withValues(const Program& program, const std::vector<st
     are_names |= words[i] == "--";
     std::string value;
     if (are_names || !mayComeAlone(program, words[i], value)) continue;
-    uint64_t number = 0;
-    const bool has_number = i + 1 < words.size() && CLI::detail::lexical_cast(words[i + 1], number);
-    if (!has_number) all.push_back(value);
+    if (i + 1 == words.size() || !isAmount(words[i + 1])) all.push_back(value);
   }
   return all;
 }

@@ -526,6 +526,12 @@ typedef struct mcc_convert_options {
   uint32_t drop_unused; /**< 1: vertices that no triangle uses are left out */
   /** triangles of a block, see mcc_encode_options */
   uint32_t block_triangles;
+  /** not 0: positions are on the lattice of this step through the origin; a power of two from
+   * 2^-126 to 2^127, see mcc::gltf::ConvertOptions */
+  double step;
+  /** not 0: how large a mesh is drawn, 16 to 1048576 pixels, from which all bits follow; see
+   * mcc::gltf::ConvertOptions */
+  double quality;
   /** 2, 3, or 0: 2 unless the GLB has more than 4 GiB; 3 is that of the draft of glTF 2.1 */
   uint32_t glb_version;
 } mcc_convert_options;

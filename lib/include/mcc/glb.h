@@ -122,6 +122,22 @@ struct ConvertOptions : QuantizationBits {
   /// When set: the lattice of every float POSITION, so that tiles converted separately fit
   /// together; `grid`, `position_bits` and max_position_error are ignored.
   std::optional<Lattice> position_lattice;
+  /// When not 0: the step of a position_lattice through the origin, so that whatever was converted
+  /// with the same step, parts and files of one project, fits together without further agreement. A
+  /// power of two from 2^-126 to 2^127: the points of such a lattice are floats, and decoding
+  /// rounds nothing. Positions farther than 2^24 steps from the origin stay exact, with a note.
+  /// Cannot be combined with lossless, max_position_error and position_lattice.
+  double step = 0;
+  /// When not 0, 16 to 2^20: how large a mesh is drawn, in pixels, from which the bits of every
+  /// float attribute follow; those of QuantizationBits are ignored. No position, and no delta of
+  /// one, is farther from its source than a pixel: 1 / quality of the longest side of the box
+  /// around what shares the lattice (see `grid`), apart from a few far outliers, which do not count
+  /// for that size. Normals and tangents turn by at most a quarter of a degree at 4096, and by half
+  /// as much for four times the pixels; texture coordinates move by at most a quarter of a texel of
+  /// the largest texture that uses them, or of a pixel where that is more; colours by half a step
+  /// of 255, weights by 2 / quality. ConvertReport::quality_choices says what was chosen. Cannot be
+  /// combined with lossless, max_position_error, position_lattice and step.
+  double quality = 0;
   /// Compresses only the triangles. Attributes stay accessors and keep every bit, in the order of
   /// the payload. Where something else refers to them they stay untouched, and the payload holds
   /// the order.
@@ -181,6 +197,16 @@ struct AttributeReport {
   double max_distance = 0;       ///< measured where a distance was promised
   double extent = 0;  ///< for positions: the longest side of the box around the decoded ones
   std::vector<std::string> primitives;  ///< JSON paths of the primitives it belongs to
+};
+
+/// What ConvertOptions::quality chose for the float attributes of one name, in all meshes.
+struct QualityChoice {
+  std::string name;              ///< "POSITION", "TEXCOORD_1", of morph targets "target NORMAL"
+  uint32_t attribute_count = 0;  ///< an attribute that several primitives share counts once
+  uint32_t exact_count = 0;      ///< those of them that stay exact; notes say why
+  uint8_t fewest_bits = 0;       ///< of the others
+  uint8_t most_bits = 0;
+  std::string why;  ///< the error that is kept, in words
 };
 
 /// Bits of one stream of a payload.
@@ -247,6 +273,9 @@ struct ConvertReport {
   std::vector<PayloadReport> payloads;
   uint64_t preview_bytes = 0;               ///< of the payloads that hold previews
   std::vector<PrimitiveReport> primitives;  ///< all primitives of the file, in file order
+  /// Empty without ConvertOptions::quality. Of all that was planned, even if it did not become
+  /// smaller and stayed as it was.
+  std::vector<QualityChoice> quality_choices;
   /// What the user may want to do something about: "/meshes/0/primitives/1: why".
   std::vector<std::string> notes;
   std::vector<std::string> remarks;  ///< the same for facts that ask nothing of anybody

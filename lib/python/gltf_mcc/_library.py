@@ -99,7 +99,8 @@ class ConvertOptions(ctypes.Structure):
                 ("max_position_error", c_double), ("is_error_relative", c_uint32), ("indices_only", c_uint32),
                 ("keep_vertex_order", c_uint32), ("keep_triangle_order", c_uint32), ("thread_count", c_uint32),
                 ("position_lattice", POINTER(Lattice)), ("prefer", c_uint32), ("max_decoded_bytes", c_uint64),
-                ("drop_unused", c_uint32), ("block_triangles", c_uint32), ("glb_version", c_uint32)]
+                ("drop_unused", c_uint32), ("block_triangles", c_uint32), ("step", c_double), ("quality", c_double),
+                ("glb_version", c_uint32)]
 
 
 class DecodeGlbOptions(ctypes.Structure):

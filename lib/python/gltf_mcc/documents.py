@@ -29,7 +29,8 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
             texcoord_bits: Optional[int] = None, color_bits: Optional[int] = None,
             tangent_bits: Optional[int] = None, weight_bits: Optional[int] = None, lossless: bool = False,
             grid: str = "mesh", max_position_error: float = 0.0, is_error_relative: bool = False,
-            position_lattice: Optional[Sequence[float]] = None, indices_only: bool = False, keep_vertex_order: bool = False, keep_triangle_order: bool = False,
+            position_lattice: Optional[Sequence[float]] = None, step: float = 0.0,
+            quality: float = 0.0, indices_only: bool = False, keep_vertex_order: bool = False, keep_triangle_order: bool = False,
             drop_unused: bool = False, prefer: str = "balanced", block_triangles: Optional[int] = None,
             thread_count: int = 1, max_decoded_bytes: int = 0, glb_version: int = 0) -> bytes:
     """Compresses the meshes of a GLB and returns the GLB that results.
@@ -47,6 +48,12 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
         is_error_relative: the error is a fraction of the largest side of the bounding box
         position_lattice: x, y, z of a point of the lattice of positions, and its step, for tiles that must fit
             together; replaces grid, position_bits and max_position_error
+        step: if not 0, a power of two such as 2**-10: the step of a lattice of positions through the origin, so
+            that everything converted with the same step fits together; excludes lossless, max_position_error and
+            position_lattice
+        quality: if not 0, how large a mesh is drawn, from 16 to 2**20 pixels: no position moves by more than a
+            pixel, and the bits of all other attributes follow as well; 4096 is usual. Excludes step and what it
+            excludes, and replaces all bits
         indices_only: only the triangles are compressed
         keep_vertex_order, keep_triangle_order: decoded elements come in the order of the source
         drop_unused: vertices that no triangle uses are left out
@@ -69,6 +76,8 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
     for name, value in given.items():
         if value is not None and lossless and name != "block_triangles":
             raise ValueError(f"lossless keeps every bit, so it excludes {name}")
+        if value is not None and quality and name != "block_triangles":
+            raise ValueError(f"quality chooses all bits, so it excludes {name}")
         if value is not None:
             setattr(options, name, unsigned(value, name))
     options.lossless = lossless
@@ -79,6 +88,8 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
         x, y, z, step = position_lattice
         lattice = _library.Lattice((x, y, z, 0), step)
         options.position_lattice = ctypes.pointer(lattice)
+    options.step = step
+    options.quality = quality
     options.indices_only = indices_only
     options.keep_vertex_order = keep_vertex_order
     options.keep_triangle_order = keep_triangle_order

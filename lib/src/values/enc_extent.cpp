@@ -32,16 +32,37 @@ double Extent::farthest() const {
   return largest;
 }
 
+void Extent::innerEnds(uint32_t c, double& low, double& high) {
+  constexpr size_t kFewestSamples = 16;
+  std::vector<float>& values = samples[c];
+  low = min[c];
+  high = max[c];
+  if (values.size() < kFewestSamples) return;
+  const auto trimmed = static_cast<ptrdiff_t>(std::max<size_t>(values.size() / 100, 1));
+  std::nth_element(values.begin(), values.begin() + trimmed, values.end());
+  low = values[static_cast<size_t>(trimmed)];
+  std::nth_element(values.begin(), values.end() - 1 - trimmed, values.end());
+  high = *(values.end() - 1 - trimmed);
+}
+
 double Extent::innerSize() {
   double largest = 0;
   for (uint32_t c = 0; c < component_count; ++c) {
-    std::vector<float>& values = samples[c];
-    if (values.size() < 16) return size();
-    const auto trimmed = static_cast<ptrdiff_t>(std::max<size_t>(values.size() / 100, 1));
-    std::nth_element(values.begin(), values.begin() + trimmed, values.end());
-    const double low = values[static_cast<size_t>(trimmed)];
-    std::nth_element(values.begin(), values.end() - 1 - trimmed, values.end());
-    largest = std::max(largest, double{*(values.end() - 1 - trimmed)} - low);
+    double low = 0;
+    double high = 0;
+    innerEnds(c, low, high);
+    largest = std::max(largest, high - low);
+  }
+  return largest;
+}
+
+double Extent::innerFarthest() {
+  double largest = 0;
+  for (uint32_t c = 0; c < component_count; ++c) {
+    double low = 0;
+    double high = 0;
+    innerEnds(c, low, high);
+    largest = std::max({largest, std::abs(low), std::abs(high)});
   }
   return largest;
 }

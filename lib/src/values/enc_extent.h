@@ -48,12 +48,16 @@ struct Extent {
   /// Largest side of the box without the outer percent of the values on either end. Reorders the
   /// samples.
   double innerSize();
+  /// Largest magnitude without the outer percent of the values on either end. Reorders the samples.
+  double innerFarthest();
   bool isInside(float low, float high) const;
 
  private:
   static constexpr uint64_t kMaxSamples = 65536;
 
   void addValue(uint32_t c, float value, bool is_sample);
+  /// Finds the ends of a component without the outer percent, if there are enough samples.
+  void innerEnds(uint32_t c, double& low, double& high);
 };
 
 /// Whether a few far values leave less than half of the bits to the others.

@@ -68,6 +68,9 @@ MCC_EXPORT("setLattice") void mccSetLattice(float x, float y, float z, float ste
   options.position_lattice = mcc::Lattice{{x, y, z, 0}, step};
 }
 
+MCC_EXPORT("setStep") void mccSetStep(double step) { options.step = step; }
+MCC_EXPORT("setQuality") void mccSetQuality(double pixels) { options.quality = pixels; }
+
 /// Finds the buffer views that meshoptimizer compressed and that triangles need. Returns 1 on
 /// success; text() is then what CodedViews::list() says. On failure it returns 0, and text() is the
 /// error message. The bytes must stay where they are until convert() has returned.

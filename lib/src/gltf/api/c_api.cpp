@@ -73,6 +73,8 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
   out.block_triangles = options.block_triangles;
   out.max_decoded_bytes = options.max_decoded_bytes;
   out.glb_version = static_cast<GlbVersion>(options.glb_version);
+  out.step = options.step;
+  out.quality = options.quality;
   if (options.position_lattice != nullptr) {
     Lattice& lattice = out.position_lattice.emplace();
     std::copy_n(options.position_lattice->origin, 4, lattice.origin);

@@ -14,6 +14,7 @@
 #include "gltf/check/check.h"
 #include "gltf/check/prove.h"
 #include "gltf/compress/compress.h"
+#include "gltf/compress/quality.h"
 #include "gltf/decompress/coded_input.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/contents.h"
@@ -285,6 +286,7 @@ Result convertInput(Input& input, const Output& output, const ConvertOptions& op
   if (!compressed.payloads.empty()) storePayloads(document, compressed);
   report.notes.insert(report.notes.end(), compressed.notes.begin(), compressed.notes.end());
   report.remarks = std::move(compressed.remarks);
+  report.quality_choices = std::move(compressed.quality_choices);
   addPrimitives(document, compressed, report);
   if (!compressed.payloads.empty()) {
     if (options.fallback) {
@@ -396,6 +398,12 @@ bool areBits(uint8_t bits, uint32_t from, uint32_t to) {
   return bits == 0 || (bits >= from && bits <= to);
 }
 
+/// Whether a number is a power of two that float32 holds with all its bits.
+bool isStep(double step) {
+  int exponent = 0;
+  return step >= 0x1p-126 && step <= 0x1p127 && std::frexp(step, &exponent) == 0.5;
+}
+
 }  // namespace
 
 Status checkGlbVersion(GlbVersion version) {
@@ -431,6 +439,22 @@ Status checkOptions(const ConvertOptions& options) {
   if (options.position_lattice && !isValidLattice(*options.position_lattice, 3)) {
     return fail(Error::kBadArgument,
                 "the lattice of positions needs finite numbers, and a step that is greater than 0");
+  }
+  if (options.step != 0 && !isStep(options.step))
+    return fail(Error::kBadArgument, "step is not a power of two from 2^-126 to 2^127");
+  if (options.step != 0 &&
+      (options.lossless || options.max_position_error > 0 || options.position_lattice)) {
+    return fail(Error::kBadArgument,
+                "step excludes lossless, max_position_error and position_lattice");
+  }
+  if (options.quality != 0 &&
+      !(options.quality >= kLeastPixels && options.quality <= kMostPixels)) {
+    return fail(Error::kBadArgument, "quality is not from 16 to 1048576 pixels");
+  }
+  if (options.quality != 0 && (options.lossless || options.max_position_error > 0 ||
+                               options.position_lattice || options.step != 0)) {
+    return fail(Error::kBadArgument,
+                "quality excludes lossless, max_position_error, position_lattice and step");
   }
   if (options.indices_only && options.drop_unused) {
     return fail(Error::kBadArgument,
@@ -470,6 +494,7 @@ Result convertTo(const ListedSink& sink, const Source& source, const ConvertOpti
   });
   cleanNotes(report.notes);
   cleanNotes(report.remarks);
+  for (QualityChoice& choice : report.quality_choices) choice.name = printable(choice.name);
   for (PrimitiveReport& primitive : report.primitives) {
     primitive.note = printable(primitive.note);
   }

@@ -105,13 +105,6 @@ Result compareExact(const AccessorData& source, const AccessorData& decoded,
 
 }  // namespace
 
-/// There are 2^bits - 1 points per axis. Half a cell along both axes moves a point of the
-/// octahedron by sqrt(6) half cells, and its faces are 1/sqrt(3) from the centre.
-double octahedralBound(uint32_t bits) {
-  const double half_cell = 1.0 / static_cast<double>((uint64_t{1} << bits) - 2);
-  return std::sqrt(18.0) * half_cell * (1 + half_cell) + 1e-6;
-}
-
 /// Half a step of the angle, plus the normal's bound, by which the plane of the angle is off, plus
 /// a margin for source tangents that are not quite perpendicular to their normals.
 double tangentBound(uint32_t bits, uint32_t normal_bits) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gltf/compress/plan.h"
+#include "gltf/compress/quality.h"
 #include "mcc/reader.h"
 
 namespace mcc::gltf {
@@ -23,9 +24,8 @@ struct Promise {
   double distance = 0;  ///< for positions: between two points; 0: none promised
 };
 
-/// Returns the largest angle, in radians, between a unit vector and the nearest point of an
-/// octahedral grid, and between a tangent and its coded angle around a normal on such a grid.
-double octahedralBound(uint32_t bits);
+/// Returns the largest angle, in radians, between a tangent and its coded angle around a normal on
+/// an octahedral grid; octahedralBound() is that of normals.
 double tangentBound(uint32_t bits, uint32_t normal_bits);
 
 /// Finds the promise that follows from the plan and from how the payload codes the attribute. Fails

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "gltf/compress/preview.h"
+#include "gltf/compress/quality_plan.h"
 #include "gltf/compress/quantize.h"
 #include "gltf/compress/savings.h"
 #include "gltf/compress/vertices.h"
@@ -220,7 +221,11 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
     planIndicesOnly(document, plans);
   } else {
     planUnused(options, plans, compressed.notes);
-    planQuantization(options, plans, compressed.notes);
+    if (options.quality != 0) {
+      planQuality(document, options, plans, compressed.notes, compressed.quality_choices);
+    } else {
+      planQuantization(options, plans, compressed.notes);
+    }
   }
   gatherPayloads(plans);
   if (!options.allow_larger) {

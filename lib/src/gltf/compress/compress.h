@@ -23,6 +23,7 @@ struct Compressed {
   std::vector<LeftAlone> left_alone;
   std::vector<std::string> notes;
   std::vector<std::string> remarks;  ///< see ConvertReport::remarks
+  std::vector<QualityChoice> quality_choices;
   // From storePayloads():
   Json json;
   Layout layout;               ///< of the buffer

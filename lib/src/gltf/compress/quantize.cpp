@@ -4,82 +4,22 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <limits>
-#include <map>
+#include <optional>
 
 #include "format/codings.h"
+#include "gltf/compress/fit_lattice.h"
 #include "values/enc_extent.h"
 
 namespace mcc::gltf {
 namespace {
 
-float floatAt(const AttributePlan& attribute, uint64_t element, uint32_t component) {
-  float value = 0;
-  std::memcpy(&value,
-              attribute.source.data + element * attribute.source.stride_bytes + 4 * component, 4);
-  return value;
-}
-
-bool addTo(Extent& extent, const AttributePlan& attribute) {
-  return extent.add(attribute.source.count,
-                    [&](uint64_t i, uint32_t c) { return floatAt(attribute, i, c); });
-}
-
-/// Finds the lattice with the largest step that keeps every point within `distance` of its source.
-/// Rounding to the lattice and the two float32 roundings of decoding move a component by at most
-/// step / 2 + 2^-24 (|scaled| + |decoded|). Returns false when float32 or 24 bits allow no such
-/// lattice.
-bool fitDistance(const Extent& extent, double distance, Lattice& lattice, uint8_t& bits) {
-  lattice = {};
-  std::copy_n(extent.min, extent.component_count, lattice.origin);
-  const double rounding = std::ldexp(1.02 * (extent.size() + 2 * extent.farthest()), -24);
-  const double per_component =
-      distance / std::sqrt(static_cast<double>(extent.component_count)) - rounding;
-  if (!(per_component > 0)) return false;
-  lattice.step = static_cast<float>(2 * per_component * (1 - 0x1p-20));
-  if (!std::isnormal(lattice.step)) return false;
-  const double last_point = std::floor(extent.size() / double{lattice.step} + 0.5);
-  bits = static_cast<uint8_t>(std::bit_width(static_cast<uint64_t>(std::max(last_point, 1.0))));
-  return last_point < std::ldexp(1.0, kMaxLatticeBits);
-}
-
-/// Fits a lattice of a given step through 0, so that unmoved vertices of a morph target stay
-/// unmoved. `bits` becomes what its larger side needs. Returns false when that is too much.
-bool fitAroundZero(const Extent& extent, float step, Lattice& lattice, uint8_t& bits) {
-  if (!std::isnormal(step)) return false;
-  constexpr double kLastPoint = (1 << kMaxLatticeBits) - 1;
-  lattice = {};
-  lattice.step = step;
-  double last_point = 1;
-  for (uint32_t c = 0; c < extent.component_count; ++c) {
-    for (const float end : {extent.min[c], extent.max[c]})
-      last_point = std::max(last_point, std::abs(latticePoint(end, 0, step)));
-  }
-  if (last_point > kLastPoint) return false;
-  bits = static_cast<uint8_t>(std::bit_width(static_cast<uint64_t>(last_point)));
-  return true;
-}
-
-void useLattice(AttributePlan& attribute, const Lattice& lattice, uint8_t bits) {
-  attribute.bits = bits;
-  attribute.has_lattice = true;
-  attribute.lattice = lattice;
-}
-
-bool isFloat(const AttributePlan& attribute) {
-  return attribute.format.component_type == ComponentType::kFloat32;
-}
-
-bool isBasePosition(const AttributePlan& attribute) {
-  return attribute.format.semantic == Semantic::kPosition && attribute.target == kNone;
-}
-
 class QuantizationPlanner {
  public:
   QuantizationPlanner(const ConvertOptions& options, std::vector<PayloadPlan>& payloads,
                       std::vector<std::string>& notes)
-      : options_(options), payloads_(payloads), notes_(notes) {}
+      : options_(options), payloads_(payloads), notes_(notes), given_(options.position_lattice) {
+    if (options.step != 0) given_ = Lattice{{0, 0, 0, 0}, static_cast<float>(options.step)};
+  }
 
   void run() {
     if (options_.lossless) return;
@@ -93,83 +33,56 @@ class QuantizationPlanner {
   }
 
  private:
-  struct Member {
-    PiecePlan* piece;
-    AttributePlan* attribute;
-  };
-
-  static std::string where(const PiecePlan& piece, const AttributePlan& attribute) {
-    return piece.parts[0].users[0].path() + ": " + attribute.label();
-  }
-
   void planPositions() {
     const uint8_t bits = options_.position_bits;
-    if (bits == 0 && options_.max_position_error == 0 && !options_.position_lattice) return;
-    std::vector<std::vector<Member>> groups;
-    for (PayloadPlan& payload : payloads_) {
-      if (options_.grid != Grid::kScene || groups.empty()) groups.emplace_back();
-      for (PiecePlan& piece : payload.pieces) {
-        if (options_.grid == Grid::kPrimitive) groups.emplace_back();
-        for (AttributePlan& attribute : piece.attributes) {
-          if (isBasePosition(attribute) && isFloat(attribute)) {
-            groups.back().push_back({&piece, &attribute});
-          }
-        }
-      }
-    }
-    for (const auto& group : groups) planPositionGroup(group, bits);
+    if (bits == 0 && options_.max_position_error == 0 && !given_) return;
+    visitPositionGroups(options_.grid, payloads_, notes_,
+                        [&](PositionGroup& group) { planPositionGroup(group, bits); });
   }
 
-  void planPositionGroup(const std::vector<Member>& group, uint8_t bits) {
-    Extent extent(3);
-    std::vector<AttributePlan*> finite;
-    for (const Member& member : group) {
-      if (addTo(extent, *member.attribute)) {
-        finite.push_back(member.attribute);
-      } else {
-        notes_.push_back(where(*member.piece, *member.attribute) +
-                         " has NaN or infinite values and stays exact");
-      }
-    }
-    if (finite.empty()) return;
+  /// Adds a note about the first attribute of a group.
+  void noteAbout(const PositionGroup& group, const std::string& what) {
+    notes_.push_back(whereIs(*group.finite[0].piece, *group.finite[0].attribute) + what);
+  }
+
+  void planPositionGroup(PositionGroup& group, uint8_t bits) {
+    Extent& extent = group.extent;
     Lattice lattice;
-    if (options_.position_lattice) {
-      const double far = farthestPoint(extent, *options_.position_lattice);
+    if (given_) {
+      const double far = farthestPoint(extent, *given_);
       if (far >= std::ldexp(1.0, kMaxLatticeBits)) {
-        notes_.push_back(
-            where(*group[0].piece, *group[0].attribute) +
-            " is more than 2^24 steps from the origin of the given lattice; it stays exact");
+        noteAbout(group,
+                  " is more than 2^24 steps from the origin of the given lattice; it stays exact");
         return;
       }
       const auto needed =
           static_cast<uint8_t>(std::bit_width(static_cast<uint64_t>(std::max(far, 1.0))));
-      for (AttributePlan* attribute : finite)
-        useLattice(*attribute, *options_.position_lattice, needed);
+      for (const PlannedAttribute& member : group.finite)
+        useLattice(*member.attribute, *given_, needed);
       return;
     }
     if (options_.max_position_error > 0) {
       const double distance =
           options_.max_position_error * (options_.is_error_relative ? extent.size() : 1);
       uint8_t needed = 0;
-      if (!fitDistance(extent, distance, lattice, needed)) {
-        notes_.push_back(
-            where(*group[0].piece, *group[0].attribute) +
-            " needs more than a lattice of 24 bits for the promised error; it stays exact");
+      if (!fitError(extent, distance / std::sqrt(3.0), lattice, needed)) {
+        noteAbout(group,
+                  " needs more than a lattice of 24 bits for the promised error; it stays exact");
         return;
       }
-      for (AttributePlan* attribute : finite) {
-        useLattice(*attribute, lattice, needed);
-        attribute->max_distance = distance;
+      for (const PlannedAttribute& member : group.finite) {
+        useLattice(*member.attribute, lattice, needed);
+        member.attribute->max_distance = distance;
       }
       return;
     }
     if (isRuinedByOutliers(extent, bits) || !fitLattice(extent, bits, lattice)) {
-      notes_.push_back(where(*group[0].piece, *group[0].attribute) +
-                       " has outliers for which a lattice of " + std::to_string(bits) +
-                       " bits would be too coarse for all other values; it stays exact");
+      noteAbout(group, " has outliers for which a lattice of " + std::to_string(bits) +
+                           " bits would be too coarse for all other values; it stays exact");
       return;
     }
-    for (AttributePlan* attribute : finite) useLattice(*attribute, lattice, bits);
+    for (const PlannedAttribute& member : group.finite)
+      useLattice(*member.attribute, lattice, bits);
   }
 
   /// Returns the largest distance of a value from the lattice's origin along an axis, in steps.
@@ -206,7 +119,7 @@ class QuantizationPlanner {
     if (!isFloat(attribute) || bits == 0 || isBasePosition(attribute)) return;
     Extent extent(attribute.format.component_count);
     if (!addTo(extent, attribute)) {
-      notes_.push_back(where(piece, attribute) + " has NaN or infinite values and stays exact");
+      notes_.push_back(whereIs(piece, attribute) + " has NaN or infinite values and stays exact");
     } else if (attribute.target != kNone) {
       planMorphDelta(piece, attribute, extent, bits);
     } else if (attribute.format.semantic == Semantic::kNormal) {
@@ -225,7 +138,7 @@ class QuantizationPlanner {
     if (is_unit_range) {  // 0 and 1 are lattice points: black stays black, and no weight of 0 grows
       useLattice(attribute, unitLattice(bits), bits);
     } else if (isRuinedByOutliers(extent, bits) || !fitLattice(extent, bits, lattice)) {
-      notes_.push_back(where(piece, attribute) + " has outliers for which a lattice of " +
+      notes_.push_back(whereIs(piece, attribute) + " has outliers for which a lattice of " +
                        std::to_string(bits) +
                        " bits would be too coarse for all other values; it stays exact");
     } else {
@@ -240,7 +153,8 @@ class QuantizationPlanner {
     if (fitLattice(extent, bits, lattice)) {
       useLattice(attribute, lattice, bits);
     } else {
-      notes_.push_back(where(piece, attribute) + " has values no lattice can hold; it stays exact");
+      notes_.push_back(whereIs(piece, attribute) +
+                       " has values no lattice can hold; it stays exact");
     }
   }
 
@@ -249,7 +163,7 @@ class QuantizationPlanner {
   void planTangent(const PiecePlan& piece, AttributePlan& attribute, const Extent& extent,
                    uint8_t bits) {
     if (!extent.isInside(-1.01f, 1.01f)) {
-      notes_.push_back(where(piece, attribute) + " is not of unit length and stays exact");
+      notes_.push_back(whereIs(piece, attribute) + " is not of unit length and stays exact");
       return;
     }
     Lattice lattice;
@@ -279,25 +193,14 @@ class QuantizationPlanner {
     if (fitAroundZero(extent, step, lattice, needed_bits)) {
       useLattice(attribute, lattice, needed_bits);
     } else {
-      notes_.push_back(where(piece, attribute) + " spans too many steps and stays exact");
+      notes_.push_back(whereIs(piece, attribute) + " spans too many steps and stays exact");
     }
-  }
-
-  /// The writer rounds the weights of a vertex together if all of them are on one lattice from 0 to
-  /// 1.
-  static void noteRoundedWeights(PiecePlan& piece) {
-    std::vector<AttributePlan*> sets;
-    for (AttributePlan& attribute : piece.attributes) {
-      if (attribute.format.semantic != Semantic::kWeights || attribute.target != kNone) continue;
-      if (!attribute.has_lattice || attribute.lattice != unitLattice(attribute.bits)) return;
-      sets.push_back(&attribute);
-    }
-    for (AttributePlan* set : sets) set->is_rounded_with_others = true;
   }
 
   const ConvertOptions& options_;
   std::vector<PayloadPlan>& payloads_;
   std::vector<std::string>& notes_;
+  std::optional<Lattice> given_;  ///< of all positions
 };
 
 }  // namespace

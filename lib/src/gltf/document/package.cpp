@@ -196,7 +196,8 @@ std::string imageTypeOf(std::span<const uint8_t> bytes) {
   if (head.starts_with("\x89PNG")) return "image/png";
   if (head.starts_with("\xff\xd8\xff")) return "image/jpeg";
   if (head.starts_with("\xabKTX 20\xbb")) return "image/ktx2";
-  if (head.starts_with("RIFF") && head.substr(8).starts_with("WEBP")) return "image/webp";
+  if (head.size() == 12 && head.starts_with("RIFF") && head.substr(8) == "WEBP")
+    return "image/webp";
   if (head.starts_with("DDS ")) return "image/vnd-ms.dds";
   if (head.size() == 12 && (head.substr(4) == "ftypavif" || head.substr(4) == "ftypavis")) {
     return "image/avif";

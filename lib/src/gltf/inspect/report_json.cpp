@@ -67,6 +67,18 @@ Json primitiveJson(const PrimitiveReport& primitive) {
   return json;
 }
 
+Json choiceJson(const QualityChoice& choice) {
+  Json json = {{"name", choice.name},
+               {"attributes", choice.attribute_count},
+               {"exact_attributes", choice.exact_count},
+               {"why", choice.why}};
+  if (choice.most_bits != 0) {
+    json["fewest_bits"] = choice.fewest_bits;
+    json["most_bits"] = choice.most_bits;
+  }
+  return json;
+}
+
 Json contentsJson(const Contents& contents) {
   return {{"geometry_bytes", contents.geometry_bytes},
           {"image_bytes", contents.image_bytes},
@@ -91,6 +103,8 @@ Json optionsJson(const ConvertOptions& options) {
                {"max_position_error", options.max_position_error},
                {"is_error_relative", options.is_error_relative},
                {"position_lattice", lattice},
+               {"step", options.step},
+               {"quality", options.quality},
                {"indices_only", options.indices_only},
                {"drop_unused", options.drop_unused},
                {"fallback", options.fallback},
@@ -140,6 +154,9 @@ Json reportJson(const ConvertReport& report, const ConvertOptions& options) {
                {"primitives", primitives},
                {"notes", notes}};
   if (report.preview_bytes != 0) json["preview_bytes"] = report.preview_bytes;
+  for (const QualityChoice& choice : report.quality_choices) {
+    json["quality_choices"].push_back(choiceJson(choice));
+  }
   return json;
 }
 

@@ -1,0 +1,60 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// What ConvertOptions::quality stands for: an error for each kind of attribute, and the bits that
+// keep within an angle.
+#ifndef MCC_GLTF_COMPRESS_QUALITY_H_
+#define MCC_GLTF_COMPRESS_QUALITY_H_
+
+#include <cstdint>
+
+namespace mcc::gltf {
+
+/// Sizes on the screen that ConvertOptions::quality takes. Float32 holds positions a few times as
+/// accurately as the last; at the first a model is hardly more than a dot.
+inline constexpr double kLeastPixels = 16;
+inline constexpr double kMostPixels = 1 << 20;
+
+/// The errors that nothing exceeds when a model is drawn `pixels` pixels large.
+struct StatedErrors {
+  explicit StatedErrors(double pixels);
+
+  /// Of positions: how far a vertex may move, as a share of the model's size. It is a pixel.
+  double share;
+  /// Of normals, and of tangents around their normals. Shading does not depend on the size on the
+  /// screen as positions do: an error of `share` on a smooth surface turns its normals by something
+  /// like the root of it, so four times the pixels halve the angle. At 4,096 pixels it is a quarter
+  /// of a degree, about one of the 256 steps of brightness.
+  double radians;
+  /// Of colours from 0 to 1: half of one of 255 steps.
+  double color = 0.5 / 255;
+  /// Of weights. A vertex moves by the error times the distance between the places to which two
+  /// joints would move it, of which half the model's size is a lot.
+  double weight;
+
+  /// Of texture coordinates: a quarter of a texel or, when it is more, of a pixel on the screen.
+  /// texels  along the longer side of the largest texture that they look up, see countedTexels().
+  /// range   of the coordinates. It is taken for the whole model; where textures repeat, it is not
+  ///         more than one of them.
+  double texcoord(double texels, double range) const;
+  /// Whether it is the pixel that counts.
+  bool isPixel(double texels, double range) const;
+
+  /// Returns what a texture counts as. Small ones are palettes as often as not and count as 1024;
+  /// 0, no texture, counts as 4096.
+  static double countedTexels(double texels);
+};
+
+/// Returns the largest angle, in radians, between a unit vector and the nearest point of an
+/// octahedral grid.
+double octahedralBound(uint32_t bits);
+
+/// Returns the fewest bits of an octahedral grid that keep within an angle. As many bits of an
+/// angle around a normal do so, too, and as many of each component of a vector that is longer than
+/// a half.
+uint8_t octahedralBitsFor(double radians);
+/// Returns the fewest bits of the lattice from 0 to 1 that have no longer step.
+uint8_t unitBitsFor(double step);
+
+}  // namespace mcc::gltf
+
+#endif  // MCC_GLTF_COMPRESS_QUALITY_H_
