@@ -13,8 +13,8 @@ export function checkBlock(piece, first) {
 	valid(piece.attributes.length !== 0, 'a block has no attributes');
 	valid(piece.part_count === (first ?? piece).part_count, 'a block has another number of parts');
 	valid(piece.face_count !== 0, 'a block has no faces');
-	const { PIVOTS, TRIANGLE_ORDER, VERTEX_ORDER, MIRRORS } = piece;
-	valid(!PIVOTS && !TRIANGLE_ORDER && !VERTEX_ORDER && !MIRRORS, 'a block has a flag that blocks do not have');
+	const { PIVOTS, TRIANGLE_ORDER, VERTEX_ORDER, MIRRORS, ANCHORS } = piece;
+	valid(!PIVOTS && !TRIANGLE_ORDER && !VERTEX_ORDER && !MIRRORS && !ANCHORS, 'a block has a flag that blocks do not have');
 }
 
 // [A.11.1] The table of blocks. `first` is the number of wedges of the glued piece before a block.

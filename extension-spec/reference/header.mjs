@@ -69,7 +69,7 @@ function readPieces(reader, header, count) {
 // [A.2.2]
 function readPiece(reader, header, before, totals) {
 	const piece = readPieceFlags(reader);
-	valid(!piece.MIRRORS || header.minorVersion >= 1, 'A.2.2', 'MIRRORS in a payload of version 1.0');
+	valid(!piece.MIRRORS && !piece.ANCHORS || header.minorVersion >= 1, 'A.2.2', 'a flag of 1.1 in a payload of 1.0');
 	readCounts(reader, piece);
 	checkCounts(reader, piece, totals);
 	readParts(reader, piece);
@@ -79,12 +79,13 @@ function readPiece(reader, header, before, totals) {
 
 function readPieceFlags(reader) {
 	const flags = varint(reader);
-	valid(flags < 2 ** 13, 'A.2.2', 'reserved flags are set');
+	valid(flags < 2 ** 14, 'A.2.2', 'reserved flags are set');
 	const surface = (flags >> 7) & 3;
 	const piece = {
 		SEAMS: bit(flags, 0), MANY_PARTS: bit(flags, 1), SAME_ATTRIBUTES: bit(flags, 2), HOLES: bit(flags, 3),
 		HANDLES: bit(flags, 4), CREASES: bit(flags, 5), ISOLATED: bit(flags, 6), LISTED: bit(flags, 9),
 		TRIANGLE_ORDER: bit(flags, 10), VERTEX_ORDER: bit(flags, 11), MIRRORS: bit(flags, 12),
+		ANCHORS: bit(flags, 13),
 		COPIES: surface === 1 || surface === 2, INTERIOR_COPIES: surface === 2, PIVOTS: surface === 3,
 	};
 	valid(piece.SEAMS || !piece.CREASES, 'A.2.2', 'CREASES without SEAMS');
@@ -157,10 +158,10 @@ function readAttributes(reader, header, piece, before, totals) {
 	}
 	const { SAME_ATTRIBUTES, attributes } = piece;
 	piece.component_sum = SAME_ATTRIBUTES ? before.component_sum : sumOf(attributes.map((a) => a.components));
-	const needsAttributes = piece.CREASES || piece.MIRRORS;
-	valid(piece.attributes.length !== 0 || !needsAttributes, 'A.2.3', 'CREASES or MIRRORS without attributes');
+	const needsAttributes = piece.CREASES || piece.MIRRORS || piece.ANCHORS;
+	valid(piece.attributes.length !== 0 || !needsAttributes, 'A.2.3', 'CREASES, MIRRORS or ANCHORS without attributes');
 	const planes = piece.attributes.length !== 0 && (piece.attributes[0].predictor & PLANES) !== 0;
-	valid(!planes || !piece.MIRRORS, 'A.6.2', 'planes is set in a piece with MIRRORS');
+	valid(!planes || !piece.MIRRORS && !piece.ANCHORS, 'A.6.2', 'planes is set in a piece with MIRRORS or ANCHORS');
 }
 
 const POSITION_CODINGS = [0, 1, 2, 6];

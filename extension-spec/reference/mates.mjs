@@ -11,7 +11,7 @@ export const mateModels = () => ({ ASKED: arrayOf(MOST_ASKED, recentModels) });
 const isEqual = (a, b) => a.every((x, c) => x === b[c]);
 
 // [A.10.20] The function that reads whether the bundle of w has the value of a mate, and yields that or undefined.
-// imageOf(value, axis) is the image of a value under a mirror across this axis.
+// imageOf(value, turn) is the image of a value, turned.
 export function valuesOfMates(coding, models, attribute, imageOf) {
 	const { piece, groupOf, mates } = coding.wedges;
 	if ((attribute.predictor & MATES) === 0 || mates === undefined) return () => undefined;
@@ -36,10 +36,10 @@ function firstWedges({ piece, groupOf }) {
 // The different images that may be asked for, in their order.
 function imagesAt({ coded, values }, mates, wedgesOf, imageOf) {
 	const images = [];
-	for (const { axis, u } of mates) {
+	for (const { turn, u } of mates) {
 		for (const x of wedgesOf[u]) {
 			if (!coded[x]) continue;
-			const image = imageOf(values[x], axis);
+			const image = imageOf(values[x], turn);
 			if (!images.some((before) => isEqual(before, image))) images.push(image);
 		}
 	}

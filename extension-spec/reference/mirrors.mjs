@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// Vertices that are mirror images of others [A.6.14].
+// Vertices that are images of others, under mirrors [A.6.14] or in components that repeat others [A.6.15].
 
+import { isometryOf, mirrorAcross, noAnchors, readAnchor } from './anchors.mjs';
 import { width } from './bytes.mjs';
 import { POSITIONS, arrayOf, raw, token } from './entropy.mjs';
 import { failUnless } from './errors.mjs';
@@ -36,20 +37,42 @@ export function readMirrors(coder, P) {
 	return mirrors;
 }
 
-// The mates by mirror and vertex, the starts of the vertices, and the table AT.
-export function createMates(mirrors, groupCount) {
-	const B = width(groupCount) + 1;
-	return { mirrors, mate: mirrors.map(() => new Int32Array(groupCount).fill(NONE)), start: [], B, AT: new Map() };
+// The mates by mirror and vertex, the starts of the vertices, and the table AT. With ANCHORS one mirror more stands
+// for the isometry of the component: it has the mates of all components, and `turns` of their vertices.
+export function createMates(mirrors, groupCount, hasAnchors) {
+	const B = width(groupCount) + 1, slots = hasAnchors ? [...mirrors, undefined] : mirrors;
+	const mate = slots.map(() => new Int32Array(groupCount).fill(NONE));
+	return {
+		mirrors, mate, start: [], B, AT: new Map(), groupCount, hasAnchors,
+		anchors: noAnchors(), component: undefined, turns: [],
+	};
+}
+
+// [A.6.15] The mirrors, and the isometry of the component if it has an anchor, each with its number.
+function slotsOf({ mirrors, component }) {
+	const slots = mirrors.map((mirror, m) => ({ m, imageOf: (q) => imageOf(mirror, q) }));
+	return component === undefined ? slots : [...slots, { m: mirrors.length, imageOf: component.imageOf }];
+}
+
+// [A.6.15] Begins a component with v, whose coordinates are known. Returns its anchor as a candidate, if there is one.
+export function beginComponent(p, v) {
+	const { mates } = p, anchor = readAnchor(p, mates.anchors, v, mates.groupCount);
+	mates.component = undefined;
+	if (anchor === undefined) return undefined;
+	const { a, turn } = anchor;
+	mates.component = { turn, ...isometryOf(turn, p.q[a], p.q[v]), taken: new Set() };
+	return { c: a, m: mates.mirrors.length };
 }
 
 const imageOf = ({ axis, sum }, q) => q.map((x, s) => (s === axis ? (sum - x) | 0 : x));
 const isNear = (a, b) => a.every((x, s) => Math.abs((x - b[s]) | 0) <= 1);
-const hasMate = ({ mate }, v) => mate.some((of) => of[v] !== NONE);
 const distanceOf = (a, b) => a.reduce((sum, x, s) => sum + Math.abs((x - b[s]) | 0), 0);
 
-// [A.10.20] The mates of v but v itself, each with the axis of its mirror, in the order of the mirrors.
-export const otherMates = ({ mirrors, mate }, v) =>
-	mirrors.map(({ axis }, m) => ({ axis, u: mate[m][v] })).filter(({ u }) => u !== NONE && u !== v);
+// [A.10.20] The mates of v but v itself, each with how it is turned, in the order of the mirrors.
+export function otherMates({ mirrors, mate, turns }, v) {
+	const turnOf = (m) => (m < mirrors.length ? mirrorAcross(mirrors[m].axis) : turns[v]);
+	return mate.map((of, m) => ({ turn: turnOf(m), u: of[v] })).filter(({ u }) => u !== NONE && u !== v);
+}
 
 // The neighbours of a fan that are looked at.
 export const lookedAt = ({ n, count: N }) => [n[N >> 1], n[0], n[N - 1]];
@@ -79,31 +102,36 @@ function ringOf(surface, start) {
 
 // The candidates of a vertex, the nearest first, and `all`.
 export function candidatesOf(p, neighbours, expected) {
-	const { mates } = p, found = [];
+	const { mates } = p, slots = slotsOf(mates), found = [];
 	let rings = 0, all = 1;
 	for (const n of neighbours) {
-		if (!hasMate(mates, n)) {
+		const having = slots.filter(({ m }) => mates.mate[m][n] !== NONE);
+		if (having.length === 0) {
 			all = 0;
 			continue;
 		}
-		mates.mirrors.forEach((_, m) => {
-			if (mates.mate[m][n] !== NONE && rings < MOST_RINGS && found.length !== 1) findAround(p, n, m, found);
-		});
+		for (const { m } of having) {
+			if (rings < MOST_RINGS && found.length !== 1) findAround(p, n, m, found);
+		}
 		if (found.length !== 0) ++rings;
 	}
 	for (const candidate of found) {
-		candidate.image = imageOf(mates.mirrors[candidate.m], p.q[candidate.c]);
+		candidate.image = slots[candidate.m].imageOf(p.q[candidate.c]);
 		candidate.distance = distanceOf(candidate.image, expected);
 	}
 	found.sort((a, b) => a.distance - b.distance);
 	return { candidates: found.slice(0, MOST_CANDIDATES), all };
 }
 
+// Whether a vertex may become a mate.
+const isFree = ({ mirrors, mate, component }, m, c) =>
+	(m < mirrors.length ? mate[m][c] === NONE : !component.taken.has(c));
+
 // What the ring of the mate of n under m has.
 function findAround(p, n, m, found) {
 	const { mates } = p, mate = mates.mate[m];
 	for (const c of ringOf(p.surface, mates.start[mate[n]])) {
-		if (p.q[c] === undefined || mate[c] !== NONE) continue;
+		if (p.q[c] === undefined || !isFree(mates, m, c)) continue;
 		if (!found.some((candidate) => candidate.c === c && candidate.m === m)) found.push({ c, m });
 	}
 }
@@ -138,5 +166,18 @@ export function findMates(p, v, named) {
 		else if (named?.m === m) [mate[m][v], mate[m][named.c]] = [named.c, v];
 		else if (c !== undefined && mate[m][c] === NONE && p.q[c].every((x, s) => x === image[s])) [mate[m][v], mate[m][c]] = [c, v];
 	});
+	findRepeated(p, v, named);
 	AT.set(place(q, B), v);
+}
+
+// [A.6.15] The mate of a vertex in a component with an anchor.
+function findRepeated(p, v, named) {
+	const { mate, mirrors, component, turns, AT, B } = p.mates, m = mirrors.length;
+	if (component === undefined) return;
+	const source = component.sourceOf(p.q[v]), c = AT.get(place(source, B));
+	const isMate = c !== undefined && !component.taken.has(c) && p.q[c].every((x, s) => x === source[s]);
+	const found = named?.m === m ? named.c : isMate ? c : NONE;
+	mate[m][v] = found;
+	turns[v] = component.turn;
+	if (found !== NONE) component.taken.add(found);
 }

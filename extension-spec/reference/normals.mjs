@@ -5,7 +5,7 @@
 import { add32, cross32, dot32, f, max, min, scale32, subtract32 } from './floats.mjs';
 import { mateModels, valuesOfMates } from './mates.mjs';
 import {
-	centreOf, frameAround, frameOfVector, gridPoint, mirroredValue, octahedron, pointOfValue, readPoint, size, sumOf,
+	centreOf, frameAround, frameOfVector, gridPoint, turnedValue, octahedron, pointOfValue, readPoint, size, sumOf,
 } from './octahedral.mjs';
 import { NO_NEIGHBOURS, contextOf, contextRows } from './residuals.mjs';
 import { NONE, forEachFace } from './surface.mjs';
@@ -66,7 +66,7 @@ function sumsOfFaceNormals({ piece, surface }, positions, weight) {
 export function decodeNormals(coding, models, attribute, positions) {
 	const C = centreOf(attribute.bits), blend = (attribute.predictor & BLEND) !== 0;
 	const S = sumsOfFaceNormals(coding.wedges, positions, attribute.predictor & 3);
-	const valueOfMate = valuesOfMates(coding, models, attribute, (value, axis) => mirroredValue(C, value, axis));
+	const valueOfMate = valuesOfMates(coding, models, attribute, (value, turn) => turnedValue(C, value, turn));
 	const readUsing = (used, context) => {
 		const frame = size(used) > f(1e-30) ? frameOfVector(C, used) : frameAround(C, last);
 		return readPoint(coding.coder, models.ROW, frame, context);

@@ -2,6 +2,7 @@
 
 // The octahedral grid and its frames [A.10.6]. All floats are f32.
 
+import { turned } from './anchors.mjs';
 import { add32, clamp, copysign, cross32, dot32, f, round32, scale32 } from './floats.mjs';
 import { NO_NEIGHBOURS, contextAfter, smallSigned } from './residuals.mjs';
 
@@ -81,10 +82,11 @@ export function readPoint(coder, ROW, frameOfPoint, context, { k, slope } = { k:
 export const gridPoint = (C, point) => [point[0] + C, point[1] + C];
 export const pointOfValue = (C, value) => [value[0] - C, value[1] - C];
 
-// [A.10.20] The image of a value under a mirror across this axis.
-export function mirroredValue(C, value, axis) {
-	const [x, y] = pointOfValue(C, value);
-	const point = [[-x, y], [x, -y], turnOver(C, [x, y])][axis];
+// [A.10.20] The image of a value, turned.
+export function turnedValue(C, value, turn) {
+	const from = pointOfValue(C, value), z = C - Math.abs(from[0]) - Math.abs(from[1]);
+	const image = turned(turn, [...(z < 0 ? turnOver(C, from) : from), z]);
+	const point = image[2] < 0 ? turnOver(C, image.slice(0, 2)) : image.slice(0, 2);
 	const isOnRim = point.some((c) => Math.abs(c) === C);
 	return gridPoint(C, isOnRim ? turnOver(C, turnOver(C, point)) : point);
 }

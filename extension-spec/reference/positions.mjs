@@ -2,12 +2,13 @@
 
 // Positions [A.6].
 
+import { anchorModels } from './anchors.mjs';
 import { FOLD, GRID, PALETTE, PLANES, SHEAR, SPLIT } from './attributeheader.mjs';
 import { f, move } from './floats.mjs';
 import { readTails } from './grids.mjs';
 import { isolatedModels, readIsolated } from './isolated.mjs';
 import {
-	candidatesOf, createMates, findMates, lookedAt, magnitudeOfImage, mirrorModels, readImage, readMirrors,
+	beginComponent, candidatesOf, createMates, findMates, lookedAt, magnitudeOfImage, mirrorModels, readImage, readMirrors,
 } from './mirrors.mjs';
 import { decodeInOrder } from './order.mjs';
 import { codeWithPalettes, paletteModels, readPalettes } from './palettes.mjs';
@@ -22,11 +23,11 @@ const FILE_ORDER = [0, 1, 2];
 
 export const positionModels = () => ({
 	tables: tableModels(), ...residualModels(), isolated: isolatedModels(), palettes: paletteModels(),
-	planes: planeModels(), mirrors: mirrorModels(),
+	planes: planeModels(), mirrors: mirrorModels(), anchors: anchorModels(),
 });
 
-// [A.6] The coordinates q of every group, then of every isolated wedge, the sequence of the groups and, with mirrors,
-// their mates.
+// [A.6] The coordinates q of every group, then of every isolated wedge, the sequence of the groups and, with mirrors
+// or anchors, their mates.
 export function decodePositions(coder, models, gridModels, piece, surface, groups) {
 	const attribute = piece.attributes[0];
 	const { predictor } = attribute;
@@ -37,7 +38,7 @@ export function decodePositions(coder, models, gridModels, piece, surface, group
 		last: vector(() => 2 ** P / 2), farScale: vector(() => 8 * 2 ** P), nearScale: vector(() => 64),
 	};
 	const mirrors = piece.MIRRORS ? readMirrors(coder, P) : [];
-	if (piece.MIRRORS) p.mates = createMates(mirrors, groups.count);
+	if (piece.MIRRORS || piece.ANCHORS) p.mates = createMates(mirrors, groups.count, piece.ANCHORS);
 	if (predictor & PALETTE) p.palettes = readPalettes(coder, models.palettes, groups.count, mirrors);
 	if (predictor & PLANES) p.planes = readPlanes(coder);
 	const sequence = decodeInOrder(surface, piece, groups, {
@@ -74,15 +75,15 @@ function codeFanAlone(p, fan, prediction) {
 	return keep(p, fan.v, codeUnsheared(p, prediction, contextsOf(p, fan, prediction)));
 }
 
-// [A.6.14] A vertex that may be an image; codeAlone() codes one that is not.
-function codeWithMirrors(p, { v, start, neighbours, prediction, axis }, codeAlone) {
+// [A.6.14] A vertex that may be an image; codeAlone() codes one that is not. [A.6.15] `begins`: a component.
+function codeWithMirrors(p, { v, start, neighbours, prediction, axis, begins }, codeAlone) {
 	const { step, fraction } = prediction;
 	const expected = vector((s) => (step[s] + ((fraction[s] + 128) >> 8)) | 0);
 	const image = readImage(p, candidatesOf(p, neighbours, expected));
 	if (image === undefined) codeAlone();
 	else keep(p, v, { q: image.q, magnitude: magnitudeOfImage(image.q, expected, axis()) });
 	p.mates.start[v] = start;
-	findMates(p, v, image?.candidate);
+	findMates(p, v, begins && p.mates.hasAnchors ? beginComponent(p, v) : image?.candidate);
 }
 
 function keep(p, g, { q, magnitude }) {
@@ -146,7 +147,7 @@ function codeSeed(p, h, neighbour) {
 	// Without a neighbour there are no candidates, and what is expected has no effect.
 	const neighbours = neighbour === NONE ? [] : [neighbour];
 	const prediction = { step: neighbour === NONE ? [0, 0, 0] : p.q[neighbour], fraction: [0, 0, 0] };
-	const seen = { v: g, start: h, neighbours, prediction, axis: () => FILE_ORDER };
+	const seen = { v: g, start: h, neighbours, prediction, axis: () => FILE_ORDER, begins: neighbour === NONE };
 	return codeWithMirrors(p, seen, () => codeSeedAlone(p, g, neighbour));
 }
 

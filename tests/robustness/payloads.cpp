@@ -11,6 +11,7 @@
 #include "support/mesh_compare.h"
 #include "support/mesh_generators.h"
 #include "support/mirrored.h"
+#include "support/repeated.h"
 
 namespace mcc::test {
 namespace {
@@ -149,6 +150,13 @@ void addExact(PayloadList& list, const TestMesh& mesh) {
   list.add("exact attributes on " + mesh.name, {&view, 1});
 }
 
+void addAnchors(PayloadList& list) {
+  const TestMesh part = jittered(torus(7, 5), 1, 0.05f);
+  list.add(repeated(part, 4, 3));
+  for (uint64_t variation = 1; variation <= 4; ++variation)
+    list.add(repeated(withNormals(part), 5, static_cast<Turn>(variation)), {14, 6, 0}, variation);
+}
+
 void addMirrors(PayloadList& list) {
   list.add(mirrored(halfSheet(7, 5, 1), 0));
   list.add(withNoise(mirrored(mirrored(halfSheet(6, 5, 2), 0), 1), 14));
@@ -217,6 +225,7 @@ std::vector<NamedPayload> makePayloads() {
   list.add(unionOf(std::array{randomVoxels(5, 9, 40), book(5, 8, 8), flipped(icosphere(4), 3, 999)},
                    "big copies"));
   addMirrors(list);
+  addAnchors(list);
   addParts(list, withDegenerates(withIndexDuplicates(grid(50, 50), 1, 80), 2, 80), 3);
   addAttributes(list, withNormals(torus(60, 40)));
   list.add(shuffled(chartGrid(50, 50, 9), 1), {}, keepingOrders(true, true));

@@ -129,25 +129,27 @@ TEST(Mates, ComeBackWithEveryChoice) {
   EXPECT_GT(asks, 60u);
 }
 
-/// Every point of a grid: its image stands for the mirrored direction and is one that writers use.
+/// Every point of a grid: its image stands for the turned direction and is one that writers use.
 TEST(Mates, ImagesOfGridPoints) {
   for (const uint8_t bits : {uint8_t{2}, uint8_t{3}, uint8_t{6}}) {
     const int32_t centre = octahedralCentre(bits);
     for (int32_t i = 0; i < (2 * centre + 1) * (2 * centre + 1); ++i) {
       int32_t point[2] = {i % (2 * centre + 1), i / (2 * centre + 1)};
       canonicalGridPoint(centre, point);
-      for (uint32_t axis = 0; axis < 3; ++axis) {
+      for (Turn turn = 0; turn < kTurnCount; ++turn) {
         int32_t image[2];
-        int32_t back[2];
-        mirrorGridPoint(centre, axis, point, image);
-        mirrorGridPoint(centre, axis, image, back);
-        EXPECT_TRUE(std::equal(back, back + 2, point));
-        float direction[3];
-        float mirrored_direction[3];
-        octahedralToUnit(point[0], point[1], centre, direction);
-        octahedralToUnit(image[0], image[1], centre, mirrored_direction);
-        direction[axis] = -direction[axis];
-        for (int s = 0; s < 3; ++s) EXPECT_NEAR(direction[s], mirrored_direction[s], 1e-6f);
+        turnGridPoint(centre, turn, point, image);
+        int32_t same[2] = {image[0], image[1]};
+        canonicalGridPoint(centre, same);
+        EXPECT_TRUE(std::equal(same, same + 2, image));
+        float from[3];
+        float to[3];
+        octahedralToUnit(point[0], point[1], centre, from);
+        octahedralToUnit(image[0], image[1], centre, to);
+        for (uint32_t s = 0; s < 3; ++s) {
+          const float x = from[kAxisOrder[turn >> 3][s]];
+          EXPECT_NEAR((turn >> s & 1) != 0 ? -x : x, to[s], 1e-6f);
+        }
       }
     }
   }

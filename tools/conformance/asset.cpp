@@ -250,6 +250,7 @@ const Asset& closestTo(const std::vector<uint8_t>& payload, std::span<const Asse
 EncodeSettings ofVersion10() {
   EncodeSettings settings;
   settings.without.add(Feature::kMirrors);
+  settings.without.add(Feature::kAnchors);
   for (const MethodInfo& method : kMethods) {
     for (const PredictorField& field : method) {
       if (field.since != 0) settings.without.add(field.feature);

@@ -80,6 +80,7 @@ class Maker {
     emptyParts();
     mirrors();
     predictorsOfVersion11();
+    anchors();
     if (!problems_.empty()) throw std::runtime_error(problems_);
     return std::move(all_);
   }
@@ -1410,16 +1411,34 @@ class Maker {
             f.setMinorVersion(1);
             f.set("0.flags", f.get("0.flags") | piece_flag::kMirrors);
           });
-    searchMirrors(asset);
-  }
-
-  /// Damages streams until each error of mirrors was met.
-  void searchMirrors(const Asset& asset) {
-    std::map<std::string, const char*> wanted = {
+    const std::map<std::string, const char*> wanted = {
         {"a mirror has no axis", "The axis of a mirror is 3"},
         {"there are too many mirrors", "Four mirrors"},
         {"a vertex is the image of none",
          "A vertex is the image of a candidate that there is not"}};
+    searchErrors(asset, "A.6.14", wanted);
+  }
+
+  void anchors() {
+    const Asset asset = encodeSource(anchorSources()[1]);
+    block("anchors with planes", "A.6.2", Error::kBadHeader, "ANCHORS with planes", asset,
+          [](HeaderFields& f) { f.set("0.0.predictor", position_mode::kPlanes); });
+    block("anchors in 1 0", "A.2.2", Error::kBadHeader, "ANCHORS in a payload of version 1.0",
+          asset, [](HeaderFields& f) { f.setMinorVersion(0); });
+    block("anchors in a block", "A.11.1", Error::kBadHeader, "A block has ANCHORS",
+          encodeSource(blockSources()[0]), [](HeaderFields& f) {
+            f.setMinorVersion(1);
+            f.set("0.flags", f.get("0.flags") | piece_flag::kAnchors);
+          });
+    const std::map<std::string, const char*> wanted = {
+        {"an anchor is not known", "An anchor that is not coded yet"},
+        {"a turn has no order of axes", "The number of an order of axes is above 5"}};
+    searchErrors(asset, "A.6.15", wanted);
+  }
+
+  /// Damages streams until each of these errors of a section was met.
+  void searchErrors(const Asset& asset, const char* section,
+                    std::map<std::string, const char*> wanted) {
     test::Random random(1);
     const size_t first = static_cast<size_t>(headerOf(asset.payload).header_bytes);
     for (uint32_t round = 0; round < 200 * kRounds && !wanted.empty(); ++round) {
@@ -1431,7 +1450,7 @@ class Maker {
       const Status status = decode(payload);
       const auto found = wanted.find(status.what);
       if (status.ok() || found == wanted.end()) continue;
-      add(found->first, "A.6.14", Error::kBadAttribute, found->second, asset, payload);
+      add(found->first, section, Error::kBadAttribute, found->second, asset, payload);
       wanted.erase(found);
     }
     for (const auto& [what, shows] : wanted) problems_ += what + ": was not found\n";

@@ -12,6 +12,7 @@
 
 #include "support/mesh_generators.h"
 #include "support/mirrored.h"
+#include "support/repeated.h"
 
 namespace mcc::conformance {
 namespace {
@@ -1323,6 +1324,7 @@ std::vector<Source> variedOfVersion11(std::vector<Source> all, uint64_t variatio
     source.name = name + source.name;
     source.shows = shows + source.shows;
     source.options.without = {};
+    source.options.without.add(Feature::kAnchors);
   }
   return all;
 }
@@ -1345,6 +1347,30 @@ std::vector<Source> matesSources() {
   std::vector<Source> all;
   matesOfSurfaces(all);
   return variedOfVersion11(std::move(all), 3, "mates_", "Values of mates: ");
+}
+
+std::vector<Source> anchorSources() {
+  std::vector<Source> all;
+  const auto fill = [](SourceBuilder& b) {
+    b.positions(10);
+    b.normals(4);
+    b.texcoords("TEXCOORD_0", 5);
+  };
+  const TestMesh part = withSharedValues(jittered(torus(5, 4), 1, 0.05f), 1);
+  all.push_back(single("moved", "components that are moved alone", repeated(part, 3, 0), fill));
+  all.push_back(single("turned", "components of many turns, with seams",
+                       repeated(withRandomWedges(part, 3, 3), 7, 7), fill));
+  all.push_back(single("near", "images that are a step away, and other triangles",
+                       withNoise(flipped(repeated(part, 2, 10), 3, 20), 10),
+                       [](SourceBuilder& b) { b.positions(10); }));
+  all.push_back(single("mirrored", "anchors with mirrors",
+                       mirrored(translated(repeated(part, 2, 0), 4, 1, 0), 0),
+                       [](SourceBuilder& b) { b.positions(12, Floats::kAny); }));
+  all.push_back(single("not_manifold", "components that are cut or have pivots",
+                       repeated(book(4, 3, 3), 2, 9), [](SourceBuilder& b) { b.positions(9); }));
+  all = variedOfVersion11(std::move(all), 2, "anchors_", "Anchors: ");
+  for (Source& source : all) source.options.without = {};
+  return all;
 }
 
 std::vector<Source> tangentSources() {
@@ -1374,6 +1400,7 @@ std::vector<Source> tangentSources() {
     source.shows = "Version 1.1: " + source.shows;
     source.options.without = {};
     source.options.without.add(Feature::kMirrors);
+    source.options.without.add(Feature::kAnchors);
   }
   return all;
 }

@@ -295,6 +295,7 @@ Suite makeSuite() {
   addOfVersion11(mirroredSources());
   addOfVersion11(tangentSources());
   addOfVersion11(matesSources());
+  addOfVersion11(anchorSources());
   numberNames(candidates);
   Suite suite;
   Json manifest = {{"extension", gltf::kExtensionName},

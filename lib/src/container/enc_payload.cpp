@@ -145,7 +145,7 @@ uint32_t writePadding(ByteWriter& out, const PayloadHeader& header, uint64_t hav
 uint8_t neededMinorVersion(const PayloadHeader& header) {
   uint8_t version = 0;
   for (size_t p = 0; p < header.pieces.size(); ++p) {
-    if (header.pieces[p].has(piece_flag::kSinceMinor1)) version = std::max(version, uint8_t{1});
+    if (header.pieces[p].hasMates()) version = std::max(version, uint8_t{1});
     const AttributeInfos attributes = header.attributesOf(header.pieces[p]);
     for (uint32_t i = 0; i < attributes.size(); ++i) {
       const AttributeMethod method = methodOf(attributes, i);

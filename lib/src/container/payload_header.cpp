@@ -194,7 +194,7 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
     MCC_TRY(in.readVarint(piece.attribute_count));
   }
   if (piece.attribute_count == 0) {  // indices only
-    return piece.has(piece_flag::kCreases | piece_flag::kMirrors)
+    return piece.has(piece_flag::kCreases | piece_flag::kSinceMinor1)
                ? fail(Error::kBadHeader, "a piece without positions has creases or mirrors", at)
                : Status{};
   }
@@ -227,7 +227,7 @@ Status parseAttributes(ByteReader& in, const Limits& limits, PayloadHeader& head
        position.bits > position_mode::kMaxBitsOfPlanes)) {
     return fail(Error::kBadHeader, "these positions cannot have planes", at);
   }
-  if ((position.predictor & position_mode::kPlanes) != 0 && piece.has(piece_flag::kMirrors))
+  if ((position.predictor & position_mode::kPlanes) != 0 && piece.hasMates())
     return fail(Error::kBadHeader, "positions with planes have mirrors", at);
   return {};
 }
@@ -254,7 +254,7 @@ struct Totals {
 Status checkBlock(const PayloadHeader& header, const PieceHeader& block, size_t at) {
   const bool is_first = header.pieces.empty();
   if (block.hasPivots() || block.face_count == 0 || block.attribute_count == 0 ||
-      block.has(piece_flag::kTriangleOrder | piece_flag::kVertexOrder | piece_flag::kMirrors) ||
+      block.has(piece_flag::kTriangleOrder | piece_flag::kVertexOrder | piece_flag::kSinceMinor1) ||
       block.has(piece_flag::kSameAttributes) == is_first ||
       (!is_first && block.part_count != header.pieces[0].part_count)) {
     return fail(Error::kBadHeader, "a block has what no block has", at);

@@ -46,6 +46,8 @@ struct PieceHeader {
   uint32_t attribute_count = 0;
 
   bool has(uint32_t flag) const { return (flags & flag & piece_flag::kDecoded) != 0; }
+  /// Whether vertices may have mates.
+  bool hasMates() const { return has(piece_flag::kSinceMinor1); }
   uint64_t triangleCount() const { return uint64_t{face_count} + listed_count; }
   SurfaceCoding surface() const {
     return static_cast<SurfaceCoding>((flags & piece_flag::kSurfaceMask) >>

@@ -44,8 +44,9 @@ inline constexpr uint32_t kListed = 1u << 9;
 inline constexpr uint32_t kTriangleOrder = 1u << 10;
 inline constexpr uint32_t kVertexOrder = 1u << 11;
 inline constexpr uint32_t kMirrors = 1u << 12;
-inline constexpr uint32_t kAll = 0x1fff;
-inline constexpr uint32_t kSinceMinor1 = kMirrors;  ///< what minor version 1 added
+inline constexpr uint32_t kAnchors = 1u << 13;
+inline constexpr uint32_t kAll = 0x3fff;
+inline constexpr uint32_t kSinceMinor1 = kMirrors | kAnchors;  ///< what minor version 1 added
 /// The flags of pieces that this decoder knows.
 inline constexpr uint32_t kDecoded = kAll & ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder);
 }  // namespace piece_flag
@@ -68,6 +69,7 @@ inline constexpr PieceFlagInfo kPieceFlags[] = {
     {piece_flag::kTriangleOrder, "TRIANGLE_ORDER", "A.3.5 A.9.1 A.9.2"},
     {piece_flag::kVertexOrder, "VERTEX_ORDER", "A.3.5 A.9.1 A.9.3"},
     {piece_flag::kMirrors, "MIRRORS", "A.6.14"},
+    {piece_flag::kAnchors, "ANCHORS", "A.6.15"},
 };
 
 struct SurfaceInfo {

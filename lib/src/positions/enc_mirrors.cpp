@@ -120,15 +120,18 @@ Mirrors findMirrors(std::span<const int32_t> positions, uint32_t sum_bits) {
 }
 
 void guessMates(std::span<const int32_t> positions, std::span<const uint32_t> order,
-                const Mirrors& mirrors, VertexMates& mates) {
-  mates.mirror_count = mirrors.count;
-  if (!mates.states.assign(size_t{1 + mirrors.count} * order.size(), kNone)) throwBadAlloc();
+                const Mirrors& mirrors, const Anchors& anchors, VertexMates& mates) {
+  if (!mates.assign(mirrors.count, anchors.count != 0, order.size(), kNone)) throwBadAlloc();
   for (uint32_t m = 0; m < mirrors.count; ++m) mates.axis[m] = mirrors.mirror[m].axis;
   std::unordered_map<Point, uint32_t, PointHash> at;
   for (const uint32_t v : order) {
     Point p;
     std::copy_n(&positions[3 * size_t{v}], 3, p.data());
     at[p] = v;
+    if (mates.has_anchors) {
+      mates.mateOf(mirrors.count, v) = anchors.mates[v];
+      mates.turnOf(v) = anchors.turns[v];
+    }
     for (uint32_t m = 0; m < mirrors.count; ++m) {
       const uint32_t axis = mirrors.mirror[m].axis;
       for (const uint32_t off : {0u, ~0u, 1u}) {

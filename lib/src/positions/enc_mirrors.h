@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "positions/enc_anchors.h"
 #include "positions/mirrors.h"
 
 namespace mcc {
@@ -19,7 +20,7 @@ Mirrors findMirrors(std::span<const int32_t> positions, uint32_t sum_bits);
 /// Finds about the mates that the positions will have when they are coded with these mirrors: those
 /// whose images are at most a step along the axis away. `order` lists the vertices in coding order.
 void guessMates(std::span<const int32_t> positions, std::span<const uint32_t> order,
-                const Mirrors& mirrors, VertexMates& mates);
+                const Mirrors& mirrors, const Anchors& anchors, VertexMates& mates);
 
 }  // namespace mcc
 

@@ -24,7 +24,7 @@ inline constexpr double kPaletteValue = 40;
 /// pivots instead of collapsed.
 inline constexpr double kCopy = 250;
 inline constexpr double kPivotFace = 40;
-/// Candidates are looked for around the mates of the neighbours.
+/// Candidates are looked for around the mates of the neighbours, by mirrors or by anchors.
 inline constexpr double kMirrors = 20;
 /// Compared with three streams; a single coder needs a division per token.
 inline constexpr double kSingleCoder = 60;

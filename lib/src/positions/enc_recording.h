@@ -76,6 +76,9 @@ class PositionRecording {
       fan.o[i] = *from != kNone ? records + *from : nullptr;
     }
   }
+  static bool beginsComponent(const Visit& visit) {
+    return visit.kind == static_cast<uint32_t>(Kind::kSeed) && visit.at == kNoNeighbour;
+  }
   const VertexRecord* seedNeighbour(const VertexRecord* records, const Visit& visit) const {
     return visit.at != kNoNeighbour ? records + visit.at : nullptr;
   }

@@ -1,8 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Codes the positions of a piece with mirrors: as positions/positions.h does, but first says of
-// each vertex whether it is the image of one that is known. Compact code has only this coder, for
-// pieces without mirrors, too. [A.6.14]
+// Codes the positions of a piece with mirrors or anchors: as positions/positions.h does, but first
+// says of each vertex whether it is the image of one that is known. Compact code has only this
+// coder, for pieces without mirrors, too. [A.6.14, A.6.15]
 #ifndef MCC_POSITIONS_MIRRORED_H_
 #define MCC_POSITIONS_MIRRORED_H_
 
@@ -13,12 +13,19 @@
 
 namespace mcc {
 
+/// The mirrors of a piece, and whether its components may have anchors.
+struct Repetition {
+  Mirrors mirrors;
+  bool has_anchors = false;
+  const Anchor* anchors = nullptr;  ///< by vertex, for those that begin components (encoder)
+};
+
 template <class Io>
 class MirroredPositionCoder {
  public:
-  /// `mirror_models` is null in pieces without mirrors.
+  /// `mirror_models` is null in pieces with neither mirrors nor anchors.
   MirroredPositionCoder(Io& io, PositionModels& models, MirrorModels* mirror_models,
-                        const PositionParameters& parameters, const Mirrors& mirrors,
+                        const PositionParameters& parameters, const Repetition& repetition,
                         VertexMates& mates, FaceMesh& mesh, const GroupPositions& vertices)
       : io_(io),
         models_(mirror_models),
@@ -29,11 +36,14 @@ class MirroredPositionCoder {
         vertex_(models.rows, parameters, vertices.records, vertices.truth),
         growth_(mesh, vertices.groups, vertices.records, parameters.has(position_mode::kWeights),
                 mesh.allocator()),
-        mates_(growth_.faces(), vertices.records, mirrors, mates, mesh.allocator()) {}
+        repetition_(repetition),
+        anchors_(io, mirror_models != nullptr ? &mirror_models->anchors : nullptr, vertices.records,
+                 vertex_count_),
+        mates_(growth_.faces(), vertices.records, repetition.mirrors, mates, mesh.allocator()) {}
 
   Status run(uint32_t* order) {
-    if (hasMirrors() && !mates_.init(vertex_count_))
-      return fail(Error::kOutOfMemory, "no memory for the mirrors");
+    if (hasMirrors() && !mates_.init(vertex_count_, repetition_.has_anchors))
+      return fail(Error::kOutOfMemory, "no memory for the mates");
     MCC_TRY(growth_.run(*this, order));
     return check();
   }
@@ -71,9 +81,11 @@ class MirroredPositionCoder {
     if (neighbour != nullptr) from = coordinates(neighbour);
     const std::span around(&neighbour, neighbour != nullptr ? 1u : 0u);
     if (!codeImage(v, from, around, nullptr)) vertex_.codeSeed(io_, v, neighbour);
+    if (repetition_.has_anchors && neighbour == nullptr) beginComponent(v);
     add(v, half_edge);
   }
   Status check() const {
+    MCC_TRY(anchor_status_);
     if (names_none_) return fail(Error::kBadAttribute, "a vertex is the image of none");
     if (io_.overrun()) return fail(Error::kTruncated, "the token stream ends inside the positions");
     return {};
@@ -82,6 +94,13 @@ class MirroredPositionCoder {
  private:
   using Neighbours = std::span<const VertexRecord* const>;
 
+  void beginComponent(uint32_t first) {
+    Anchor anchor;
+    const Anchor truth = Io::kEncoding ? repetition_.anchors[first] : Anchor{};
+    const Status status = anchors_.code(first, truth, anchor);
+    if (!status.ok() && anchor_status_.ok()) anchor_status_ = status;
+    mates_.begin(first, anchor);
+  }
   bool hasMirrors() const { return !kCompact || models_ != nullptr; }
   void add(uint32_t v, uint32_t half_edge) {
     if (hasMirrors()) mates_.add(v, half_edge);
@@ -165,6 +184,9 @@ class MirroredPositionCoder {
   const uint32_t vertex_count_;
   VertexCoder<Io, kAnyModes> vertex_;
   RegionGrowth growth_;
+  const Repetition& repetition_;
+  AnchorCoder<Io> anchors_;
+  Status anchor_status_;
   MirrorMates mates_;
   bool names_none_ = false;  ///< a vertex is said to be the image of a candidate that there is not
 };

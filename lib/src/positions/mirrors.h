@@ -8,6 +8,10 @@
 //
 // Two vertices are mates under a mirror if one was named as the image of the other, or is exactly
 // there. Nothing is assumed of the triangles: they need not be mirrored.
+//
+// A component that has an anchor is coded in the same way: under its isometry, the mates of its
+// vertices are vertices of the component that it repeats. A vertex may become the mate of one
+// vertex in each component. [A.6.15]
 #ifndef MCC_POSITIONS_MIRRORS_H_
 #define MCC_POSITIONS_MIRRORS_H_
 
@@ -20,6 +24,8 @@
 #include "entropy/models.h"
 #include "mcc/status.h"
 #include "mesh/face_mesh.h"
+#include "positions/anchor.h"
+#include "positions/isometry.h"
 #include "positions/mirror.h"
 #include "positions/predict.h"
 #include "positions/tables.h"
@@ -47,6 +53,7 @@ inline constexpr uint32_t kNearBucket = 4;  ///< whose row a near image's residu
 struct MirrorModels {
   TokenRow candidate[2 * kLeads];
   TokenRow residual[3];
+  AnchorModels anchors;
 
   MirrorModels() {
     for (uint32_t i = 0; i < 2 * kLeads; ++i) {
@@ -61,11 +68,10 @@ struct MirrorModels {
 /// bounded number of steps, and few branches that a processor cannot foresee.
 class MirrorMates {
  public:
-  /// `mates` receives the mates.
+  /// `mates` receives the mates. begin() must be called at components if there are anchors.
   MirrorMates(const FaceView& faces, const VertexRecord* records, const Mirrors& mirrors,
               VertexMates& mates, const Allocator& allocator)
       : faces_(faces), records_(records), count_(mirrors.count), mates_(mates), at_(allocator) {
-    mates_.mirror_count = count_;
     for (uint32_t m = 0; m < count_; ++m) {
       const Mirror& mirror = mirrors.mirror[m];
       mates_.axis[m] = mirror.axis;
@@ -74,10 +80,10 @@ class MirrorMates {
     }
   }
 
-  [[nodiscard]] bool init(uint32_t vertex_count) {
+  [[nodiscard]] bool init(uint32_t vertex_count, bool has_anchors) {
     const uint32_t width = std::bit_width(vertex_count) + 1u;
     shift_ = 32 - width;
-    return mates_.states.assign(size_t{1 + count_} * vertex_count, kNotCoded) &&
+    return mates_.assign(count_, has_anchors, vertex_count, kNotCoded) &&
            at_.assign(size_t{1} << width, kNone);
   }
 
@@ -92,7 +98,7 @@ class MirrorMates {
     for (const VertexRecord* record : neighbours) {
       const uint32_t neighbour = static_cast<uint32_t>(record - records_);
       bool has_mate = false;
-      for (uint32_t m = 0; m < count_; ++m) {
+      for (uint32_t m = 0; m < count_ + (component_ != 0 ? 1 : 0); ++m) {
         const uint32_t mate = mateOf(m, neighbour);
         if (mate >= kIsFound) continue;
         has_mate = true;
@@ -106,7 +112,9 @@ class MirrorMates {
   uint32_t count() const { return std::min(found_count_, kMostCandidates); }
   /// The context of the choice, by how clear it is.
   uint32_t context() const {
-    const uint32_t lead = found_count_ < 2 ? 0 : 3 * (best_ >> 8) < second_ >> 8 ? 1 : 2;
+    const uint32_t lead = found_count_ < 2                                ? 0
+                          : 3 * (best_ >> kKeyBits) < second_ >> kKeyBits ? 1
+                                                                          : 2;
     return 2 * lead + (all_have_mates_ ? 1 : 0);
   }
   /// Returns the image of a candidate, by its rank below count().
@@ -124,16 +132,31 @@ class MirrorMates {
       mateOf(m, vertex) = mate;
       if (mate != kNone) mateOf(m, mate) = vertex;
     }
+    if (mates_.has_anchors) addRepeated(vertex, q);
     at_[placeOf(q)] = vertex;
+  }
+
+  /// Begins a component with a vertex whose position has become known, before add() is called for
+  /// it. `anchor` names a known vertex or none.
+  void begin(uint32_t vertex, const Anchor& anchor) {
+    component_ = 0;
+    if (anchor.vertex == kNone) return;
+    component_ = ++anchor_count_;
+    turn_ = anchor.turn;
+    isometry_ = Isometry(turn_);
+    isometry_.lead(coordinates(&records_[anchor.vertex]), coordinates(&records_[vertex]));
+    found_[0] = {anchor.vertex, count_};
+    named_ = 0;
   }
 
  private:
   struct Found {
     uint32_t vertex;
-    uint32_t mirror;
+    uint32_t mirror;  ///< or count_ for the isometry of the component
   };
-  static constexpr uint32_t kMostFound = kMostRings * kMaxMirrors * (2 * kMateCorners + 1);
-  static_assert(kMostFound < 256);  // 8 bits of a key
+  static constexpr uint32_t kMostFound = kMostRings * (kMaxMirrors + 1) * (2 * kMateCorners + 1);
+  static constexpr uint32_t kKeyBits = 9;
+  static_assert(kMostFound < 1u << kKeyBits);
 
   /// The mates of a vertex that is not coded yet, and of one that is found already.
   static constexpr uint32_t kNotCoded = kNone - 1;
@@ -146,7 +169,8 @@ class MirrorMates {
     return (q ^ flip_[mirror]) + move_[mirror];
   }
   Lanes<uint32_t> image(const Found& found) const {
-    return image(coordinates(&records_[found.vertex]), found.mirror);
+    const Lanes<uint32_t> q = coordinates(&records_[found.vertex]);
+    return found.mirror == count_ ? isometry_(q) : image(q, found.mirror);
   }
   static bool isNear(const Lanes<uint32_t>& a, const Lanes<uint32_t>& b) {
     const Lanes<uint32_t> d = absoluteLanes(a - b);
@@ -171,14 +195,43 @@ class MirrorMates {
     return is_mate ? other : kNone;
   }
 
+  /// The word that says whether a vertex may become a mate: its mate or where it was taken.
+  uint32_t& freeOf(uint32_t mirror, uint32_t vertex) {
+    return mirror == count_ ? mates_.takenOf(vertex) : mateOf(mirror, vertex);
+  }
+  static bool isFree(uint32_t word, uint32_t free_below) {
+    return word == kNone || word < free_below;
+  }
+
+  /// Finds the mate of a vertex at q under the isometry of its component, if there is one: the
+  /// anchor, or else as findMate() does.
+  void addRepeated(uint32_t vertex, const Lanes<uint32_t>& q) {
+    uint32_t mate = kNone;
+    if (component_ != 0) {
+      if (named_ != kMostFound && found_[named_].mirror == count_) {
+        mate = found_[named_].vertex;
+      } else {
+        const Lanes<uint32_t> source = isometry_.source(q);
+        const uint32_t other = at_[placeOf(source)];
+        if (other != kNone && isFree(mates_.takenOf(other), component_) &&
+            isEqual(coordinates(&records_[other]), source))
+          mate = other;
+      }
+      if (mate != kNone) mates_.takenOf(mate) = component_;
+    }
+    mates_.takenOf(vertex) = kNone;
+    mates_.turnOf(vertex) = turn_;
+    mateOf(count_, vertex) = mate;
+  }
+
   /// Ranks the candidates by the distance of their images: a key is a distance above a number in
   /// found_.
   void rank(const Lanes<uint32_t>& from) {
     best_ = second_ = ~uint64_t{0};
     for (uint32_t i = 0; i < found_count_; ++i) {
-      mateOf(found_[i].mirror, found_[i].vertex) = kNone;
+      freeOf(found_[i].mirror, found_[i].vertex) = kNone;
       const Lanes<uint32_t> d = absoluteLanes(image(found_[i]) - from);
-      const uint64_t key = (uint64_t{d[0]} + d[1] + d[2]) << 8 | i;
+      const uint64_t key = (uint64_t{d[0]} + d[1] + d[2]) << kKeyBits | i;
       keys_[i] = key;
       second_ = std::min(second_, std::max(best_, key));
       best_ = std::min(best_, key);
@@ -193,19 +246,20 @@ class MirrorMates {
       }
       key = next;
     }
-    return static_cast<uint32_t>(key & 0xff);
+    return static_cast<uint32_t>(key & ((1u << kKeyBits) - 1));
   }
 
   /// Collects the vertices around that of `start` which are coded and have no mate yet.
   void collectAround(uint32_t mirror, uint32_t start) {
     uint32_t count = found_count_;
-    uint32_t* const mates = &mateOf(mirror, 0);
-    const size_t stride = 1 + count_;
+    uint32_t* const mates = &freeOf(mirror, 0);
+    const size_t stride = mates_.stride;
+    const uint32_t free_below = mirror == count_ ? component_ : 0;
     const auto collect = [&](uint32_t vertex) MCC_INLINE_LAMBDA {
       uint32_t& mate = mates[vertex * stride];
-      const uint32_t is_new = mate == kNone ? 1 : 0;
+      const uint32_t is_new = isFree(mate, free_below) ? 1 : 0;
       found_[count] = {vertex, mirror};
-      mate -= is_new * (kNone - kIsFound);
+      mate = is_new != 0 ? kIsFound : mate;
       count += is_new;
     };
     const FaceView faces = faces_;
@@ -232,6 +286,10 @@ class MirrorMates {
   const FaceView faces_;
   const VertexRecord* const records_;
   const uint32_t count_;  ///< of mirrors
+  Isometry isometry_;     ///< of the component
+  Turn turn_ = 0;
+  uint32_t component_ = 0;  ///< its number among those with anchors, or 0 without one
+  uint32_t anchor_count_ = 0;
   Lanes<uint32_t> flip_[kMaxMirrors] = {};
   Lanes<uint32_t> move_[kMaxMirrors] = {};
   VertexMates& mates_;

@@ -15,19 +15,19 @@
 #define MCC_MODES_INSTANCE(PREFIX, Io, fixed)                                       \
   PREFIX template Status PieceCoder<Io>::runModes<fixed>(const PositionParameters&, \
                                                          const PieceTruth&);
-#define MCC_ALL_INSTANCES(PREFIX, Io)                                                           \
-  PREFIX template Status PieceCoder<Io>::codeConnectivity(const PieceTruth&, CodeHistogram*,    \
-                                                          bool);                                \
-  PREFIX template Status PieceCoder<Io>::codeStitch(const PieceTruth&);                         \
-  PREFIX template Status PieceCoder<Io>::codePositions(const PieceTruth&,                       \
-                                                       const PositionParameters*);              \
-  PREFIX template Status PieceCoder<Io>::runMirrored(const PositionParameters&, const Mirrors&, \
-                                                     const PieceTruth&);                        \
-  PREFIX template Status PieceCoder<Io>::codePositionTails(const PieceTruth&);                  \
-  PREFIX template Status PieceCoder<Io>::codeSeams(const PieceTruth&);                          \
-  PREFIX template Status PieceCoder<Io>::codeLeftovers(const PieceTruth&);                      \
-  PREFIX template Status PieceCoder<Io>::codeOrders(const PieceTruth&);                         \
-  PREFIX template Status PieceCoder<Io>::prepareAttributes();                                   \
+#define MCC_ALL_INSTANCES(PREFIX, Io)                                                              \
+  PREFIX template Status PieceCoder<Io>::codeConnectivity(const PieceTruth&, CodeHistogram*,       \
+                                                          bool);                                   \
+  PREFIX template Status PieceCoder<Io>::codeStitch(const PieceTruth&);                            \
+  PREFIX template Status PieceCoder<Io>::codePositions(const PieceTruth&,                          \
+                                                       const PositionParameters*);                 \
+  PREFIX template Status PieceCoder<Io>::runMirrored(const PositionParameters&, const Repetition&, \
+                                                     const PieceTruth&);                           \
+  PREFIX template Status PieceCoder<Io>::codePositionTails(const PieceTruth&);                     \
+  PREFIX template Status PieceCoder<Io>::codeSeams(const PieceTruth&);                             \
+  PREFIX template Status PieceCoder<Io>::codeLeftovers(const PieceTruth&);                         \
+  PREFIX template Status PieceCoder<Io>::codeOrders(const PieceTruth&);                            \
+  PREFIX template Status PieceCoder<Io>::prepareAttributes();                                      \
   PREFIX template Status AttributeStage<Io>::code(uint32_t, Array<int32_t>&);
 
 #if !defined(MCC_COMPACT)

@@ -75,6 +75,7 @@ struct PieceTruth {
   const AxisPalette* palettes = nullptr;    ///< 3, if the position has them
   const AxisPlanes* planes = nullptr;       ///< 3, if the position has them
   const Mirrors* mirrors = nullptr;         ///< if the piece has them
+  const Anchor* anchors = nullptr;          ///< by group, if the piece has them
   const uint32_t* corner_source = nullptr;  ///< source wedge of corner 3f+k
   LeftoverTruth leftovers;
   const uint32_t* triangle_order = nullptr;  ///< see TriangleOrderCoder
@@ -271,7 +272,7 @@ class PieceCoder : public CodedPiece {
   template <uint32_t kModes>
   Status runModes(const PositionParameters& parameters, const PieceTruth& truth);
 
-  Status runMirrored(const PositionParameters& parameters, const Mirrors& mirrors,
+  Status runMirrored(const PositionParameters& parameters, const Repetition& repetition,
                      const PieceTruth& truth);
 
   /// Used without positions: enters the groups in the order of the faces.
@@ -356,7 +357,10 @@ Status PieceCoder<Io>::codePositions(const PieceTruth& truth, const PositionPara
   PositionParameters parameters = fitted != nullptr ? *fitted : PositionParameters{};
   describePositions(attributes_[0], parameters);
   MCC_TRY(codePositionTables(io_, models_.positions.tables, parameters));
-  Mirrors mirrors;
+  Repetition repetition;
+  repetition.has_anchors = header_.has(piece_flag::kAnchors);
+  repetition.anchors = truth.anchors;
+  Mirrors& mirrors = repetition.mirrors;
   if (header_.has(piece_flag::kMirrors))
     MCC_TRY(codeMirrors(io_, parameters.bits, Io::kEncoding ? *truth.mirrors : mirrors, mirrors));
   PositionPalettes palettes(allocator_);
@@ -378,10 +382,9 @@ Status PieceCoder<Io>::codePositions(const PieceTruth& truth, const PositionPara
   sequence.clear();
   if (needsSequence() && !sequence.resize(groups.count)) return noMemory();
   if constexpr (!kCompact) {
-    if (!header_.has(piece_flag::kMirrors)) MCC_TRY(runPositions(parameters, truth));
+    if (!header_.hasMates()) MCC_TRY(runPositions(parameters, truth));
   }
-  if (kCompact || header_.has(piece_flag::kMirrors))
-    MCC_TRY(runMirrored(parameters, mirrors, truth));
+  if (kCompact || header_.hasMates()) MCC_TRY(runMirrored(parameters, repetition, truth));
   if (header_.isolated_count != 0) {
     const int32_t* const known =
         Io::kEncoding ? truth.positions + 3 * size_t{groups.count} : nullptr;
@@ -457,7 +460,7 @@ Status PieceCoder<Io>::prepareAttributes() {
   if (header_.attribute_count < 2) return {};
   MCC_TRY(stage_.wedges.build(mesh, wedges.half_edges, wedges.count, header_.wedge_count,
                               header_.has(piece_flag::kSeams) ? wedge_group.data() : nullptr));
-  if (mates.mirror_count != 0) MCC_TRY(stage_.findWedgeMates(mates, groups.count));
+  if (!mates.empty()) MCC_TRY(stage_.findWedgeMates(mates, groups.count));
   if (stage_.needsExactPositions()) MCC_TRY(listExactPositions());
   MCC_TRY(findGroupPositions());
   records.reset();
@@ -489,13 +492,13 @@ Status PieceCoder<Io>::codePositionTails(const PieceTruth& truth) {
 }
 
 template <SymbolIo Io>
-Status PieceCoder<Io>::runMirrored(const PositionParameters& parameters, const Mirrors& mirrors,
-                                   const PieceTruth& truth) {
-  MirrorModels* const models = mirrors.count != 0 ? models_.mirrors.get(allocator_) : nullptr;
-  if (models == nullptr && mirrors.count != 0) return noMemory();
+Status PieceCoder<Io>::runMirrored(const PositionParameters& parameters,
+                                   const Repetition& repetition, const PieceTruth& truth) {
+  MirrorModels* const models = header_.hasMates() ? models_.mirrors.get(allocator_) : nullptr;
+  if (models == nullptr && header_.hasMates()) return noMemory();
   const GroupPositions vertices{groups, records.data(), truth.positions};
-  return MirroredPositionCoder<Io>(io_, models_.positions, models, parameters, mirrors, mates, mesh,
-                                   vertices)
+  return MirroredPositionCoder<Io>(io_, models_.positions, models, parameters, repetition, mates,
+                                   mesh, vertices)
       .run(needsSequence() ? sequence.data() : nullptr);
 }
 

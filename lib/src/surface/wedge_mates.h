@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "mcc/status.h"
+#include "mesh/turn.h"
 #include "mesh/vertex_mates.h"
 #include "surface/wedges.h"
 
@@ -29,18 +30,20 @@ class WedgeMates {
   }
   bool empty() const { return mates_ == nullptr; }
 
-  /// Calls visit(axis, other) for the wedges of the vertices that are mates of w's across an axis,
-  /// at most the first four of each, until it returns false.
+  /// Calls visit(turn, other) for the wedges of the vertices that are mates of w's, turned: at most
+  /// the first four of each, until it returns false.
   template <class Visit>
   void forMates(uint32_t w, Visit visit) const {
     if (w >= wedges_->surface_count) return;
     const uint32_t vertex = wedges_->vertexOf(w);
-    for (uint32_t m = 0; m < mates_->mirror_count; ++m) {
+    for (uint32_t m = 0; m < mates_->slotCount(); ++m) {
       const uint32_t mate = mates_->mateOf(m, vertex);
       if (mate == kNone || mate == vertex) continue;
+      const Turn turn =
+          m < mates_->mirror_count ? Turn{1} << mates_->axis[m] : mates_->turnOf(vertex);
       uint32_t other = wedges_->hasSeams() ? first_[mate] : mate;
       for (uint32_t i = 0; i < kMostWedges && other < wedges_->surface_count; ++i, ++other) {
-        if (!visit(mates_->axis[m], other)) return;
+        if (!visit(turn, other)) return;
         if (!wedges_->continuesVertex(other + 1)) break;
       }
     }

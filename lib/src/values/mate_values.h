@@ -28,7 +28,7 @@ class MateValues {
       : job_(job), models_(models), mates_(mates) {}
 
   /// Returns whether the value of bundle `w` is that of a mate; then it is in place.
-  /// image(axis, value, to) computes what a value is across an axis.
+  /// image(turn, value, to) computes what a value is, turned.
   template <class Image>
   bool code(uint32_t w, Image image) {
     if (mates_ == nullptr) return false;
@@ -36,10 +36,10 @@ class MateValues {
     int32_t asked[kMostAskedMates][2];
     uint32_t count = 0;
     bool is_known = false;
-    mates_->forMates(w, [&](uint32_t axis, uint32_t other) {
+    mates_->forMates(w, [&](uint32_t turn, uint32_t other) {
       if (!job_.isCoded(other)) return true;
       int32_t* const it = asked[count];
-      image(axis, job_.values + 2 * size_t{other}, it);
+      image(turn, job_.values + 2 * size_t{other}, it);
       for (uint32_t i = 0; i < count; ++i) {
         if (asked[i][0] == it[0] && asked[i][1] == it[1]) return true;
       }

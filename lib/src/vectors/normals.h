@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "format/predictors.h"
+#include "mesh/turn.h"
 #include "surface/face_pass.h"
 #include "surface/wedges.h"
 #include "values/attribute_job.h"
@@ -204,15 +205,16 @@ inline void canonicalGridPoint(int32_t centre, int32_t* point) {
   point[1] = p[1] + centre;
 }
 
-/// The grid point that stands for the direction of `value`, mirrored across an axis. [A.10.20]
-inline void mirrorGridPoint(int32_t centre, uint32_t axis, const int32_t* value, int32_t* to) {
-  int32_t p[2] = {value[0] - centre, value[1] - centre};
-  if (axis == 2) {
-    OctahedralFrame::turnOver(p, centre);
-  } else {
-    p[axis] = -p[axis];
-  }
-  for (int s = 0; s < 2; ++s) to[s] = p[s] + centre;
+/// The grid point that stands for the direction of `value`, turned. [A.10.20]
+inline void turnGridPoint(int32_t centre, Turn turn, const int32_t* value, int32_t* to) {
+  int32_t p[3] = {value[0] - centre, value[1] - centre, 0};
+  p[2] = centre - std::abs(p[0]) - std::abs(p[1]);
+  if (p[2] < 0) OctahedralFrame::turnOver(p, centre);
+  const uint8_t* const from = kAxisOrder[turn >> 3];
+  int32_t q[3];
+  for (uint32_t s = 0; s < 3; ++s) q[s] = (turn >> s & 1) != 0 ? -p[from[s]] : p[from[s]];
+  if (q[2] < 0) OctahedralFrame::turnOver(q, centre);
+  for (int s = 0; s < 2; ++s) to[s] = q[s] + centre;
   canonicalGridPoint(centre, to);
 }
 
@@ -336,10 +338,10 @@ void NormalCoder<Io>::codeGroup(uint32_t w) {
 /// Whether the point is the image of a mate's; it is then in place.
 template <class Io>
 bool NormalCoder<Io>::codeMate(uint32_t w) {
-  const auto mirrored = [this](uint32_t axis, const int32_t* value, int32_t* to) {
-    mirrorGridPoint(centre_, axis, value, to);
+  const auto turned = [this](Turn turn, const int32_t* value, int32_t* to) {
+    turnGridPoint(centre_, turn, value, to);
   };
-  if (!mates_.code(w, mirrored)) return false;
+  if (!mates_.code(w, turned)) return false;
   for (uint32_t s = 0; s < 2; ++s) last_[s] = job_.values[2 * size_t{w} + s] - centre_;
   return true;
 }

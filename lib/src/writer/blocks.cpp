@@ -400,7 +400,8 @@ class BlocksEncoder {
     findPlanesOf(plans[0], whole_.attributes[0].values);
     Variation variation(options_.variation);
     EncodeSettings options = options_;
-    options.without.add(Feature::kMirrors);  // blocks have none
+    options.without.add(Feature::kMirrors);  // blocks have neither
+    options.without.add(Feature::kAnchors);
     options.without.add(Feature::kMates);
     MCC_TRY(variation.active() ? varyAll(plans, variation, options.without)
                                : chooseAll(plans, options, jobs_));

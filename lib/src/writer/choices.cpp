@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "exact/enc_grid.h"
+#include "positions/enc_anchors.h"
 #include "positions/enc_mirrors.h"
 #include "positions/enc_prices.h"
 #include "writer/predictor_search.h"
@@ -41,39 +42,46 @@ Status surfaceCost(Plan& plan, uint64_t& cost) {
 
 using Runners = std::vector<std::unique_ptr<StageRunner>>;
 
-bool anyMirrors(const std::vector<Plan>& plans) {
-  return std::any_of(plans.begin(), plans.end(),
-                     [](const Plan& plan) { return plan.mirrors.count != 0; });
+/// Returns the flags of what a piece has to find mates by.
+uint32_t matesIn(const Plan& plan) {
+  return (plan.mirrors.count != 0 ? piece_flag::kMirrors : 0) |
+         (plan.anchors.count != 0 ? piece_flag::kAnchors : 0);
 }
 
-/// The ways to code positions that are left when mirrors are still to be chosen. The first is the
-/// best without mirrors.
+/// Returns these flags of all pieces.
+uint32_t matesIn(const std::vector<Plan>& plans) {
+  uint32_t flags = 0;
+  for (const Plan& plan : plans) flags |= matesIn(plan);
+  return flags;
+}
+
+/// The ways to code positions that are left when mirrors and anchors are still to be chosen. The
+/// first is the best without them.
 using PositionChoices = std::vector<PositionParameters>;
 
 /// Chooses once for all pieces, since they share tables and models. Consumes the recordings.
-PositionChoices choosePositions(std::vector<RecordedPositions> recorded, bool any_mirrors,
+PositionChoices choosePositions(std::vector<RecordedPositions> recorded, bool any_mates,
                                 double surface_bits, const EncodeSettings& options,
                                 const Jobs& jobs) {
   std::vector<PositionCandidate> candidates;
   for (const RecordedPositions& piece : recorded) candidates.push_back(piece.candidate);
   PositionSettings settings{options.prefer, options.without};
   PositionChoices choices = {choosePositionParameters(candidates, surface_bits, settings, jobs)};
-  // A palette of all coordinates is dear when mirrors save half of them.
-  if (any_mirrors && choices[0].has(position_mode::kPalette)) {
+  // A palette of all coordinates is dear when mates save half of them.
+  if (any_mates && choices[0].has(position_mode::kPalette)) {
     settings.without.add(Feature::kPalette);
     choices.push_back(choosePositionParameters(candidates, surface_bits, settings, jobs));
   }
   return choices;
 }
 
-/// Gives all pieces the same way to code their positions.
-void setPositions(std::vector<Plan>& plans, const PositionParameters& parameters,
-                  bool with_mirrors) {
+/// Gives all pieces the same way to code their positions. `mates` are flags of what they may use.
+void setPositions(std::vector<Plan>& plans, const PositionParameters& parameters, uint32_t mates) {
   for (Plan& plan : plans) {
     plan.positions_as = parameters;
     plan.attributes[0].info.predictor = parameters.modes;
-    plan.header.flags &= ~piece_flag::kMirrors;
-    if (with_mirrors && plan.mirrors.count != 0) plan.header.flags |= piece_flag::kMirrors;
+    plan.header.flags &= ~piece_flag::kSinceMinor1;
+    plan.header.flags |= mates & matesIn(plan);
   }
 }
 
@@ -90,7 +98,7 @@ Status costWithPositions(std::vector<Plan>& plans, double& bits) {
   return {};
 }
 
-/// Lets no attribute ask for mates, which pieces without mirrors do not have.
+/// Lets no attribute ask for mates, which pieces with neither mirrors nor anchors do not have.
 void forgetMates(std::vector<Plan>& plans) {
   for (Plan& plan : plans) {
     std::vector<AttributeInfo> infos = infosOf(plan);
@@ -101,12 +109,14 @@ void forgetMates(std::vector<Plan>& plans) {
   }
 }
 
-/// Settles how positions are coded: by the first choice without mirrors, or by any with them.
+/// Settles how positions are coded: by the first choice with neither mirrors nor anchors, or by any
+/// with them.
 /// `mates_bits` is what attributes gain by mates.
 Status settlePositions(std::vector<Plan>& plans, const PositionChoices& choices, double mates_bits,
                        const EncodeSettings& options) {
-  setPositions(plans, choices[0], false);
-  if (!anyMirrors(plans)) return {};
+  setPositions(plans, choices[0], 0);
+  const uint32_t all = matesIn(plans);
+  if (all == 0) return {};
   if (choices[0].has(position_mode::kPlanes)) {
     forgetMates(plans);
     return {};
@@ -115,16 +125,22 @@ Status settlePositions(std::vector<Plan>& plans, const PositionChoices& choices,
   MCC_TRY(costWithPositions(plans, least));
   const TimePrice price(options.prefer);
   const PositionParameters* best = nullptr;
-  for (const PositionParameters& choice : choices) {
-    double bits = 0;
-    setPositions(plans, choice, true);
-    MCC_TRY(costWithPositions(plans, bits));
-    bits += price.surcharge(bits, price_ns::kMirrors) - mates_bits;
-    if (bits >= least) continue;
-    least = bits;
-    best = &choice;
+  uint32_t best_mates = 0;
+  for (const uint32_t mates :
+       {piece_flag::kMirrors, piece_flag::kAnchors, piece_flag::kSinceMinor1}) {
+    if ((mates & ~all) != 0) continue;
+    for (const PositionParameters& choice : choices) {
+      double bits = 0;
+      setPositions(plans, choice, mates);
+      MCC_TRY(costWithPositions(plans, bits));
+      bits += price.surcharge(bits, price_ns::kMirrors) - mates_bits;
+      if (bits >= least) continue;
+      least = bits;
+      best = &choice;
+      best_mates = mates;
+    }
   }
-  setPositions(plans, best != nullptr ? *best : choices[0], best != nullptr);
+  setPositions(plans, best != nullptr ? *best : choices[0], best_mates);
   if (best == nullptr) forgetMates(plans);
   return {};
 }
@@ -170,7 +186,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner& runner,
   uint64_t best_cost = ~uint64_t{0};
   uint64_t best_without_mates = ~uint64_t{0};
   FeatureSet without = rules.without;
-  if (plan.mirrors.count == 0) without.add(Feature::kMates);
+  if (matesIn(plan) == 0) without.add(Feature::kMates);
   for (AttributeInfo candidate : alternatives) {
     info = candidate;
     const std::vector<AttributeInfo> infos = infosOf(plan);
@@ -205,7 +221,7 @@ Status chooseAttributeMethod(Plan& plan, uint32_t index, StageRunner& runner,
 }
 
 /// Chooses creases and the methods of all attributes but positions; they do not depend on how
-/// positions are coded, except for mirrors. `io` has counted the surfaces, and the positions are
+/// positions are coded, except for mates. `io` has counted the surfaces, and the positions are
 /// recorded. `mates_bits` receives what mates gain.
 Status chooseMethods(std::vector<Plan>& plans, Runners& runners, const EncoderIo& io,
                      const EncodeSettings& options, double& mates_bits) {
@@ -292,11 +308,13 @@ Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const 
                       [&](size_t i) { return runners[i]->recordPositions(recorded[i]); }));
   for (size_t i = 0; i < plans.size() && !options.without.has(Feature::kMirrors); ++i)
     plans[i].mirrors = findMirrors(plans[i].positions, sumBits(recorded[i].candidate.bits));
+  for (size_t i = 0; i < plans.size() && !options.without.has(Feature::kAnchors); ++i)
+    plans[i].anchors = findAnchors(plans[i].positions, *recorded[i].recording, plans[i].mirrors);
   PositionChoices choices;
   double mates_bits = 0;
   MCC_TRY(jobs.tryAll(2, [&](size_t i) -> Status {
     if (i == 1) return chooseMethods(plans, runners, io, options, mates_bits);
-    const bool any = anyMirrors(plans);
+    const bool any = matesIn(plans) != 0;
     choices = choosePositions(std::move(recorded), any, surface_bits, options, jobs);
     return {};
   }));
@@ -314,6 +332,18 @@ void varyMirrors(std::vector<Plan>& plans, std::span<const PositionCandidate> ca
     plan.header.flags |= piece_flag::kMirrors;
     const uint32_t sum_bits = sumBits(candidates[i].bits);
     plan.mirrors = variation.mirrors(findMirrors(plan.positions, sum_bits), sum_bits);
+  }
+}
+
+/// Likewise with anchors.
+void varyAnchors(std::vector<Plan>& plans, std::span<const RecordedPositions> recorded,
+                 Variation variation) {
+  for (size_t i = 0; i < plans.size(); ++i) {
+    Plan& plan = plans[i];
+    if (plan.positions_as.has(position_mode::kPlanes) || !variation.coin()) continue;
+    plan.header.flags |= piece_flag::kAnchors;
+    plan.anchors = findAnchors(plan.positions, *recorded[i].recording, plan.mirrors);
+    variation.anchors(*recorded[i].recording, plan.anchors);
   }
 }
 
@@ -344,6 +374,7 @@ Status varyAll(std::vector<Plan>& plans, Variation& variation, const FeatureSet&
     for (const uint32_t a : codingOrder(plan)) varyAttributeMethod(plan, a, variation, without);
   }
   if (!without.has(Feature::kMirrors)) varyMirrors(plans, candidates, variation.apart());
+  if (!without.has(Feature::kAnchors)) varyAnchors(plans, recorded, variation.apart().apart());
   return {};
 }
 

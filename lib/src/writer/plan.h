@@ -14,6 +14,7 @@
 #include "connectivity/enc_pivots.h"
 #include "container/payload_header.h"
 #include "exact/grid.h"
+#include "positions/enc_anchors.h"
 #include "positions/enc_fit.h"
 #include "positions/enc_planes.h"
 #include "positions/mirrors.h"
@@ -54,6 +55,7 @@ struct Plan {
   std::optional<bool> has_planes;  ///< whether there are `planes`; nothing: not known yet
   AxisPlanes planes[3];
   Mirrors mirrors;                  ///< if the header has them
+  Anchors anchors;                  ///< likewise
   PositionParameters positions_as;  ///< the chosen parameters with fitted tables
   std::vector<uint32_t> wedge_source;
   std::vector<uint32_t> part_of_face;

@@ -96,11 +96,11 @@ Status StageRunner::recordPositions(RecordedPositions& recorded) {
 }
 
 void StageRunner::guessMates() {
-  if (plan_.mirrors.count == 0 || plan_.attributes.size() < 2) return;
+  if ((plan_.mirrors.count == 0 && plan_.anchors.count == 0) || plan_.attributes.size() < 2) return;
   std::vector<uint32_t> order;
   for (size_t i = 0; i < piece_->groups.count; ++i)
     order.push_back(piece_->mesh.words[piece_->sequence[i]]);
-  mcc::guessMates(plan_.positions, order, plan_.mirrors, piece_->mates);
+  mcc::guessMates(plan_.positions, order, plan_.mirrors, plan_.anchors, piece_->mates);
 }
 
 Status StageRunner::codePositions(StreamSizes* sizes) {
@@ -115,6 +115,7 @@ Status StageRunner::codePositions(StreamSizes* sizes) {
     truth_->palettes = palettes;
     truth_->planes = plan_.planes;
     truth_->mirrors = &plan_.mirrors;
+    truth_->anchors = plan_.anchors.anchor.data();
   }
   MCC_TRY(piece_->codePositions(*truth_, &plan_.positions_as));
   account(sizes, &StreamSizes::position_bits);

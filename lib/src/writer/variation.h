@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "format/predictors.h"
+#include "positions/enc_anchors.h"
 #include "positions/enc_fit.h"
+#include "positions/enc_recording.h"
 #include "positions/mirror.h"
 
 namespace mcc {
@@ -51,6 +53,16 @@ class Variation {
       any.mirror[i] = {below(3), static_cast<int32_t>(sum) >> (32 - sum_bits)};
     }
     return any;
+  }
+
+  /// Names any anchors, with any turns, for some of the components of a piece.
+  void anchors(const PositionRecording& recording, Anchors& anchors) {
+    std::vector<uint32_t> known;
+    for (const PositionRecording::Visit& visit : recording.visits()) {
+      if (!known.empty() && recording.beginsComponent(visit) && below(4) == 0)
+        anchors.anchor[visit.vertex] = {oneOf(known), below(kTurnCount)};
+      known.push_back(visit.vertex);
+    }
   }
 
   PositionParameters positions(std::span<const PositionCandidate> pieces) {

@@ -142,6 +142,7 @@ Draft anyDraft(uint64_t seed) {
       h.flags |= sometimes(flag);
     }
     if (seed % 16 == 8) h.flags |= piece_flag::kMirrors;
+    if (seed % 16 == 4) h.flags |= piece_flag::kAnchors;
     h.setSurface(static_cast<SurfaceCoding>(random.below(4)));
     if (h.hasPivots()) h.flags &= ~(piece_flag::kHoles | piece_flag::kHandles);
     h.face_count = anyCount(random, limit) + 1;
@@ -179,7 +180,7 @@ Draft anyDraft(uint64_t seed) {
 uint8_t versionOf(const Draft& draft) {
   uint8_t version = 0;
   for (const Draft::Piece& piece : draft.pieces) {
-    if (piece.header.has(piece_flag::kMirrors)) version = 1;
+    if (piece.header.hasMates()) version = 1;
     for (const AttributeInfo& a : piece.attributes) {
       const bool is_tangent_point =
           a.format.semantic == Semantic::kTangent && a.coding == AttributeCoding::kOctahedral;
@@ -369,13 +370,15 @@ TEST(Container, ReservedBits) {
               Error::kBadHeader);
   }
   // What version 1.1 adds is reserved in 1.0.
-  Draft mirrors = simpleDraft();
-  mirrors.pieces[0].header.flags |= piece_flag::kMirrors;
-  std::vector<uint8_t> payload = mirrors.write();
-  EXPECT_EQ(parseError(payload), Error::kOk);
-  payload[kVersionOffset] = kVersionMajor << 4;
-  repairChecksum(payload);
-  EXPECT_EQ(parseError(payload), Error::kBadHeader);
+  for (const uint32_t flag : {piece_flag::kMirrors, piece_flag::kAnchors}) {
+    Draft added = simpleDraft();
+    added.pieces[0].header.flags |= flag;
+    std::vector<uint8_t> payload = added.write();
+    EXPECT_EQ(parseError(payload), Error::kOk);
+    payload[kVersionOffset] = kVersionMajor << 4;
+    repairChecksum(payload);
+    EXPECT_EQ(parseError(payload), Error::kBadHeader);
+  }
 }
 
 TEST(Container, CountsThatContradictEachOther) {

@@ -50,7 +50,7 @@ class Mates {
       const auto twin = half_edges.find({ends.second, ends.first});
       if (twin != half_edges.end()) words_[h + 4] = twin->second;
     }
-    EXPECT_TRUE(mates_.init(static_cast<uint32_t>(points.size())));
+    EXPECT_TRUE(mates_.init(static_cast<uint32_t>(points.size()), false));
   }
 
   /// Looks for candidates of a vertex at `from`.
