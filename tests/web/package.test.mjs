@@ -153,5 +153,5 @@ describe('package', () => {
 
 /** Of one decoder and the script, after brotli: what they take today. The aim is 25,000 for the core. */
 const LARGEST_BYTES = {
-  mcc_decoder_core_simd: 42_500, mcc_decoder_core: 44_000, mcc_decoder_simd: 60_000, mcc_decoder: 65_000,
+  mcc_decoder_core_simd: 43_500, mcc_decoder_core: 44_500, mcc_decoder_simd: 61_500, mcc_decoder: 66_500,
 };

@@ -25,6 +25,8 @@ namespace decodes {
 inline constexpr bool kOrders = kWhole;       ///< kept orders of triangles and vertices
 inline constexpr bool kExactFloats = kWhole;  ///< also exact grids
 inline constexpr bool kPivots = kWhole;       ///< faces coded vertex by vertex
+inline constexpr bool kIsolated = kWhole;     ///< vertices without faces
+inline constexpr bool kListed = kWhole;       ///< duplicate and degenerate triangles
 inline constexpr bool kPlanes = kWhole;       ///< planes of positions
 inline constexpr bool kTangents = kWhole;     ///< tangents that are quantised
 inline constexpr bool kBlocks = kWhole;       ///< surfaces cut into blocks

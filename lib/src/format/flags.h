@@ -48,7 +48,9 @@ inline constexpr uint32_t kAnchors = 1u << 13;
 inline constexpr uint32_t kAll = 0x3fff;
 inline constexpr uint32_t kSinceMinor1 = kMirrors | kAnchors;  ///< what minor version 1 added
 /// The flags of pieces that this decoder knows.
-inline constexpr uint32_t kDecoded = kAll & ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder);
+inline constexpr uint32_t kDecoded =
+    kAll & ~(decodes::kOrders ? 0 : kTriangleOrder | kVertexOrder) &
+    ~(decodes::kIsolated ? 0 : kIsolated) & ~(decodes::kListed ? 0 : kListed);
 }  // namespace piece_flag
 
 struct PieceFlagInfo {

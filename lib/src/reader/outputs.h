@@ -42,7 +42,7 @@ struct ElementAt {
 
   const int32_t* operator()(uint32_t place) const {
     size_t at = wedge_at(place);
-    if (at >= isolated_first) {
+    if (decodes::kIsolated && at >= isolated_first) {
       at = at - isolated_first + group_count;
     } else if (group != nullptr) {
       at = group[at];

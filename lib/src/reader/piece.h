@@ -141,7 +141,8 @@ class CodedPiece {
   /// Returns the group whose record holds the position of a wedge. Isolated vertices come after the
   /// groups.
   uint32_t groupOf(uint32_t wedge) const {
-    if (wedge >= wedges.isolated_first) return groups.count + (wedge - wedges.isolated_first);
+    if (decodes::kIsolated && wedge >= wedges.isolated_first)
+      return groups.count + (wedge - wedges.isolated_first);
     return header_.has(piece_flag::kSeams) ? wedge_group[wedge] : wedge;
   }
 
@@ -385,7 +386,7 @@ Status PieceCoder<Io>::codePositions(const PieceTruth& truth, const PositionPara
     if (!header_.hasMates()) MCC_TRY(runPositions(parameters, truth));
   }
   if (kCompact || header_.hasMates()) MCC_TRY(runMirrored(parameters, repetition, truth));
-  if (header_.isolated_count != 0) {
+  if (decodes::kIsolated && header_.isolated_count != 0) {
     const int32_t* const known =
         Io::kEncoding ? truth.positions + 3 * size_t{groups.count} : nullptr;
     IsolatedCoder<Io> isolated(io_, models_.isolated);
@@ -422,7 +423,7 @@ Status PieceCoder<Io>::codeLeftovers(const PieceTruth& truth) {
   const LeftoverCounts counts{mesh.face_count, header_.wedge_count, header_.part_count,
                               header_.listed_count};
   MCC_TRY(codeParts(io_, models_.leftovers, mesh.view(), counts, truth.leftovers));
-  if (!header_.has(piece_flag::kListed)) return {};
+  if (!decodes::kListed || !header_.has(piece_flag::kListed)) return {};
   return codeList(io_, models_.leftovers, mesh.view(), counts, truth.leftovers, list);
 }
 
