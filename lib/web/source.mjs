@@ -25,7 +25,7 @@ export class Source {
     const { module, bytes, coreUrl, simdCoreUrl, wasmUrl, simdWasmUrl } = this.where;
     const isWhole = (module ?? bytes ?? wasmUrl ?? simdWasmUrl) !== undefined;
     if ((coreUrl ?? simdCoreUrl) !== undefined) return this.#load('coreDecoder', urlOfCore);
-    return isWhole ? this.whole() : this.#load('coreDecoder', urlOfCore, { bytes: hasSimd() ? inlineCore?.() : undefined });
+    return isWhole ? this.whole() : this.#load('coreDecoder', urlOfCore, () => ({ bytes: hasSimd() ? inlineCore?.() : undefined }));
   }
 
   whole() {
@@ -37,8 +37,9 @@ export class Source {
     return this.decoder && !this.coreDecoder ? this.whole() : this.core();
   }
 
-  #load(name, urlOf, given = this.where) {
-    this.#loading[name] ??= compileModule(given, urlOf(this.where)).then((module) => (this[name] = { module }), (error) => {
+  /** Every payload asks for its decoder, so nothing is looked for after the first time: not even whether there are vectors. */
+  #load(name, urlOf, given = () => this.where) {
+    this.#loading[name] ??= compileModule(given(), urlOf(this.where)).then((module) => (this[name] = { module }), (error) => {
       delete this.#loading[name]; // the next call tries again
       throw error;
     });

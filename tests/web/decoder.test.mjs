@@ -5,6 +5,7 @@ import { after, before, describe, test } from 'node:test';
 import { checkDocument } from '../../extension-spec/reference/restrictions.mjs';
 import { createDecoderPool, decodePayload, decodePayloadSync, init, MccError, ready } from '../../lib/web/decoder.mjs';
 import { elementsOf, payloadsOf } from '../../lib/web/document.mjs';
+import { useInlineCore } from '../../lib/web/source.mjs';
 import { readGlb, unpackGlb } from '../../lib/web/unpack.mjs';
 import { DECODERS, manifest, payloadOf, readAsset, wasm, whatDiffers } from './support/conformance.mjs';
 
@@ -211,6 +212,22 @@ test('a module that cannot be loaded', async () => {
   assert.match(error.message, /no_such\.wasm/);
   await init(); // and again from where it is
   await decodePayload(somePayload());
+});
+
+test('what is the same for all payloads is done for the first one only', async (t) => {
+  const unpack = t.mock.fn(() => wasm('mcc_decoder_core_simd'));
+  const validate = t.mock.method(WebAssembly, 'validate');
+  useInlineCore(unpack);
+  t.after(() => {
+    useInlineCore(undefined);
+    return init();
+  });
+  await init();
+  await decodePayload(somePayload());
+  const ofFirst = validate.mock.callCount();
+  for (let i = 0; i < 3; ++i) await decodePayload(somePayload());
+  assert.equal(unpack.mock.callCount(), 1);
+  assert.equal(validate.mock.callCount(), ofFirst);
 });
 
 describe('pool', () => {

@@ -36,10 +36,16 @@ constexpr uint32_t lowBytesOffset(uint32_t bytes) {
 }
 
 /// Stores an integer component in the host's byte order, like every number in the caller's arrays.
-/// The value is taken modulo the width of the type.
+/// The value is taken modulo the width of the type. A copy of a size that the compiler does not
+/// know would be a call, in WebAssembly one that leaves it.
 inline void storeInteger(uint8_t* to, ComponentType type, int32_t value) {
-  const uint32_t bytes = componentBytes(type);
-  std::memcpy(to, reinterpret_cast<const uint8_t*>(&value) + lowBytesOffset(bytes), bytes);
+  const auto store = [to](auto narrow)
+                         MCC_INLINE_LAMBDA { std::memcpy(to, &narrow, sizeof narrow); };
+  switch (componentBytes(type)) {
+    case 1: return store(static_cast<uint8_t>(value));
+    case 2: return store(static_cast<uint16_t>(value));
+    default: return store(value);
+  }
 }
 
 /// Returns the bits of a component in the host's byte order. The type has at most 32 bits; the bits

@@ -63,11 +63,11 @@ void storeNormals(int32_t centre, bool has_sign, uint32_t wedge_count,
     for (uint32_t i = 0; i < 4; ++i) points[i] = load(w + (i < count ? i : 0));
     Float4 rows[4];
     octahedralToUnit(points, centre, rows);
-    rows[3] = allLanes(1.0f);
+    rows[3] = rows[0];  // to spare
     transpose(rows[0], rows[1], rows[2], rows[3]);
     for (uint32_t i = 0; i < count; ++i, to += target.stride_bytes) {
-      std::memcpy(to, &rows[i], (has_sign ? 4 : 3) * sizeof(float));
-      if (has_sign && points[i][2] != 0) storeFloat(to + 12, -1.0f);
+      std::memcpy(to, &rows[i], 3 * sizeof(float));  // of a constant size, which takes no call
+      if (has_sign) storeFloat(to + 12, points[i][2] != 0 ? -1.0f : 1.0f);
     }
   }
 }
