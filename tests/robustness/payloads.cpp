@@ -153,8 +153,11 @@ void addExact(PayloadList& list, const TestMesh& mesh) {
 void addAnchors(PayloadList& list) {
   const TestMesh part = jittered(torus(7, 5), 1, 0.05f);
   list.add(repeated(part, 4, 3));
-  for (uint64_t variation = 1; variation <= 4; ++variation)
-    list.add(repeated(withNormals(part), 5, static_cast<Turn>(variation)), {14, 6, 0}, variation);
+  for (uint64_t variation = 1; variation <= 4; ++variation) {
+    EncodeSettings settings;
+    settings.variation = variation;
+    list.add(repeated(withNormals(part), 5, static_cast<Turn>(variation)), {14, 6, 0}, settings);
+  }
 }
 
 void addMirrors(PayloadList& list) {
