@@ -71,7 +71,7 @@ test('there and back', async () => {
 
 test('a step and a quality', async () => {
   const [usual, step, lattice, fine, coarse] = await Promise.all([{}, { step: 2 ** -10 }, { positionLattice: [0, 0, 0, 2 ** -10] },
-    { quality: 4096 }, { quality: 256 }].map((options) => encodeGlb(sample('torus'), options)));
+    { quality: 4096 }, { quality: 256 }].map((options) => encodeGlb(sample('genus3'), options)));
   assert.deepEqual(step.glb, lattice.glb);
   assert.notDeepEqual(step.glb, usual.glb);
   assert.ok(coarse.glb.length < fine.glb.length);
