@@ -436,7 +436,9 @@ TEST(SceneExtensions, SplatsStayAsTheyWere) {
       }
     }
     // Texture coordinates and indices of the sheet are gone, five accessors stay.
-    if (!is_coded) EXPECT_EQ(jsonOf(trip.converted)["bufferViews"].size(), 6u);
+    if (!is_coded) {
+      EXPECT_EQ(jsonOf(trip.converted)["bufferViews"].size(), 6u);
+    }
   }
 }
 

@@ -11,8 +11,8 @@
 namespace mcc::test {
 namespace {
 
-using Point = std::array<uint32_t, 3>;
-Point pointOf(const Lanes<uint32_t>& q) { return {q[0], q[1], q[2]}; }
+using Place = std::array<uint32_t, 3>;
+Place placeOf(const Lanes<uint32_t>& q) { return {q[0], q[1], q[2]}; }
 
 /// Also with coordinates whose images wrap.
 TEST(Isometries, LeadAndComeBack) {
@@ -26,21 +26,21 @@ TEST(Isometries, LeadAndComeBack) {
     const Lanes<uint32_t> from = any();
     const Lanes<uint32_t> to = any();
     isometry.lead(from, to);
-    EXPECT_EQ(pointOf(isometry(from)), pointOf(to));
+    EXPECT_EQ(placeOf(isometry(from)), placeOf(to));
     const Lanes<uint32_t> q = any();
-    EXPECT_EQ(pointOf(isometry.source(isometry(q))), pointOf(q));
-    EXPECT_EQ(pointOf(isometry(isometry.source(q))), pointOf(q));
+    EXPECT_EQ(placeOf(isometry.source(isometry(q))), placeOf(q));
+    EXPECT_EQ(placeOf(isometry(isometry.source(q))), placeOf(q));
   }
 }
 
 TEST(Isometries, TurnsAreAllThatThereAre) {
-  std::set<Point> images;
+  std::set<Place> images;
   for (Turn turn = 0; turn < kTurnCount; ++turn)
-    images.insert(pointOf(Isometry(turn)(Lanes<uint32_t>{1, 2, 3, 0})));
+    images.insert(placeOf(Isometry(turn)(Lanes<uint32_t>{1, 2, 3, 0})));
   EXPECT_EQ(images.size(), size_t{kTurnCount});
-  EXPECT_EQ(pointOf(Isometry(0)(Lanes<uint32_t>{1, 2, 3, 0})), (Point{1, 2, 3}));
+  EXPECT_EQ(placeOf(Isometry(0)(Lanes<uint32_t>{1, 2, 3, 0})), (Place{1, 2, 3}));
   // The axes change their places first.
-  EXPECT_EQ(pointOf(Isometry(8 * 3 + 1)(Lanes<uint32_t>{1, 2, 3, 0})), (Point{~0u - 1, 3, 1}));
+  EXPECT_EQ(placeOf(Isometry(8 * 3 + 1)(Lanes<uint32_t>{1, 2, 3, 0})), (Place{~0u - 1, 3, 1}));
 }
 
 }  // namespace
