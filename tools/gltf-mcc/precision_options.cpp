@@ -80,17 +80,16 @@ double qualityOf(const std::string& text) {
 void addStep(Command& command, gltf::ConvertOptions& options) {
   const auto text = std::make_shared<std::string>();
   Option& step = command.add("--step", "2^N", text.get(),
-                             "Step of a lattice of positions through the origin, which all files\n"
-                             "with this step share");
+                             "Step of a lattice through the origin, on which files can meet");
   step.excludes = {"--lossless", "--position-bits", "--max-position-error", "--position-lattice"};
   step.then = [text, &options]() { options.step = stepOf(*text); };
 }
 
 void addQuality(Command& command, gltf::ConvertOptions& options) {
   const auto text = std::make_shared<std::string>();
-  Option& quality = command.add("--quality", "[Npx|1/N]", text.get(),
-                                "Choose all bits for models N pixels large on the screen, or for\n"
-                                "errors of 1/N of their size [4096px if no value follows]");
+  Option& quality =
+      command.add("--quality", "[Npx|1/N]", text.get(),
+                  "Choose all bits: N pixels large, or errors of 1/N of size [4096px]");
   quality.when_alone = "4096px";
   quality.excludes = {"--lossless",        "--position-bits", "--normal-bits",
                       "--texcoord-bits",   "--color-bits",    "--tangent-bits",
