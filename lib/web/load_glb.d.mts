@@ -2,6 +2,8 @@
 import type { ByteSource, GlbBlock, GlbBlockOptions } from './types.mjs';
 
 export interface LoadGlbOptions extends GlbBlockOptions {
+  /** Is called first, with the JSON of the file, which says where primitives are drawn and of what material. It must not be changed. */
+  onDocument?: (json: any) => void;
   /**
    * Is called with each preview in the file, a coarse version of a large primitive, as soon as it is decoded. Its `uses` say which
    * primitives it stands for. A preview that has blocks comes block by block.
