@@ -28,9 +28,9 @@ export function decodeGlbBlocks(source, options) {
 
 /**
  * The same for previews, for what they stand for, or for both. Blocks of previews come with `isPreview`, in the order in which everything is
- * in the file.
+ * in the file. `onDocument` is called with the JSON before.
  */
-export async function* blocksIn(source, options, { wantsPreviews, wantsBlocks }) {
+export async function* blocksIn(source, options, { onDocument, wantsPreviews, wantsBlocks }) {
   const { decodeBlocks = decodeHere, limits, ...others } = options ?? {};
   requireArgument(typeof decodeBlocks === 'function', 'decodeBlocks must be a function');
   const chunks = new Chunks(source);
@@ -38,6 +38,7 @@ export async function* blocksIn(source, options, { wantsPreviews, wantsBlocks })
     const { json, fileBytes, walk } = await readBeginning(chunks);
     const payloads = payloadsOf(json);
     const previews = wantsPreviews ? previewsOf(json, payloads) : [];
+    onDocument?.(json);
     const wanted = inPlace(json, [...(wantsBlocks ? payloads : []), ...previews]);
     const budget = new Budget(fileBytes, limits);
     budget.add(sum(wanted.map(namedBytes)));

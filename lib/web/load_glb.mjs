@@ -13,16 +13,16 @@ import { decodeBlocksAnywhere } from './threads.mjs';
  * @returns {Promise<Uint8Array>} the file as it came
  */
 export async function loadGlb(source, options) {
-  const { onPreview, onBlock, signal, decodeBlocks = decodeBlocksAnywhere, ...others } = options ?? {};
-  for (const [name, call] of Object.entries({ onPreview, onBlock })) {
+  const { onDocument, onPreview, onBlock, signal, decodeBlocks = decodeBlocksAnywhere, ...others } = options ?? {};
+  for (const [name, call] of Object.entries({ onDocument, onPreview, onBlock })) {
     requireArgument(call === undefined || typeof call === 'function', `${name} must be a function`);
   }
   signal?.throwIfAborted();
   const isPlace = typeof source === 'string' || source instanceof URL;
   const kept = new KeptSource(isPlace ? await bodyOf(source, signal) : source, signal);
   try {
-    const wanted = { wantsPreviews: onPreview !== undefined, wantsBlocks: onBlock !== undefined };
-    if (onPreview !== undefined || onBlock !== undefined) {
+    const wanted = { onDocument, wantsPreviews: onPreview !== undefined, wantsBlocks: onBlock !== undefined };
+    if ([onDocument, onPreview, onBlock].some((call) => call !== undefined)) {
       for await (const block of blocksIn(kept, { ...others, signal, decodeBlocks }, wanted)) (block.isPreview ? onPreview : onBlock)(block);
     }
     return await kept.all();

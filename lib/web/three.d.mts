@@ -1,4 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+import type { LoadGlbOptions } from './load_glb.mjs';
 import type { UnpackOptions } from './unpack.mjs';
 
 /** What a geometry shows. */
@@ -20,6 +21,19 @@ export interface PluginOptions extends UnpackOptions {
   onBlock?: (geometry: any, info: BlockOfPrimitive) => void;
 }
 
+export interface PreviewOptions extends Pick<LoadGlbOptions, 'decodeBlocks' | 'limits' | 'signal'> {
+  /**
+   * Is called with a Group each time a preview was added to it: meshes in the places of the nodes that show the primitive, with the factors
+   * of its material. It is the same Group each time; add it to your scene. It does not have textures, skins, morph targets and instances.
+   */
+  onPreview?: (group: any, info: BlockOfPrimitive) => void;
+  /**
+   * Is called with the same Group each time a block of a primitive was added to it. Without this function, blocks are not decoded on their
+   * own. When all blocks of a primitive are there, its preview is removed from the Group.
+   */
+  onBlock?: (group: any, info: BlockOfPrimitive) => void;
+}
+
 export { preload } from './threads.mjs';
 
 /**
@@ -27,6 +41,13 @@ export { preload } from './threads.mjs';
  * small payloads are decoded on the page's thread and others in workers, which all loaders of a page share.
  */
 export function registerMeshCollapse<Loader extends object>(loader: Loader, options?: PluginOptions): Loader;
+
+/**
+ * Loads a GLB like `loader.loadAsync(url)`, of a loader that knows the extension, and shows its previews while the rest is on its way. When
+ * the promise resolves or rejects, the Group has been removed from its parent and disposed of. Rejects also if a preview is damaged, if a
+ * function throws, and with the reason of `signal`. The place, headers and manager are those of the loader, which reads the file with fetch().
+ */
+export function loadWithPreview(loader: object, url: string, options?: PreviewOptions): Promise<any>;
 
 /**
  * For GLTFLoader.register((parser) => new MeshCollapsePlugin(parser)). `parser` is a GLTFParser. Nothing is loaded before the first file is

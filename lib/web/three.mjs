@@ -5,6 +5,7 @@ import { PayloadViews } from './views.mjs';
 import { preload, rarelyNeeded } from './threads.mjs';
 
 export { preload };
+export { loadWithPreview } from './three_preview.mjs';
 
 /** All of these GLTFLoader needs anyway. import('three') would make bundlers keep the rest of three.js as well. */
 const THREE = { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 };

@@ -11,7 +11,18 @@ const NAMES = {
 };
 
 /** Tells of a block, once for each primitive that draws triangles of it. @param {object} three its classes, by name */
-export function showBlock(three, { index, blockCount, box, attributes, parts }, claims, onBlock) {
+export function showBlock(three, block, claims, onBlock) {
+  const { index, blockCount } = block;
+  for (const { geometry, mesh, primitive } of geometriesOf(three, block, usesOf(claims))) onBlock(geometry, { index, blockCount, mesh, primitive });
+}
+
+/**
+ * Yields a geometry for each primitive that draws triangles of a block.
+ * @param {object} three its classes, by name
+ * @param {object} block of decodeBlocks()
+ * @param {object[]} uses like those of usesOf()
+ */
+export function* geometriesOf(three, { box, attributes, parts }, uses) {
   const { BufferAttribute, BufferGeometry } = three;
   const shared = new Map();
   const attributeOf = (number) => {
@@ -19,13 +30,13 @@ export function showBlock(three, { index, blockCount, box, attributes, parts }, 
     if (!shared.has(number)) shared.set(number, new BufferAttribute(array, componentCount, normalized));
     return shared.get(number);
   };
-  for (const { mesh, primitive, part, attributes: names } of usesOf(claims)) {
+  for (const { mesh, primitive, part, attributes: names } of uses) {
     if (parts[part].triangleCount === 0) continue;
     const geometry = new BufferGeometry();
     for (const [name, number] of Object.entries(names)) geometry.setAttribute(NAMES[name] ?? name.toLowerCase(), attributeOf(number));
     geometry.setIndex(new BufferAttribute(parts[part].indices, 1));
     if (names.POSITION !== undefined && !attributes[0].normalized) setBounds(three, geometry, box);
-    onBlock(geometry, { index, blockCount, mesh, primitive });
+    yield { geometry, mesh, primitive };
   }
 }
 

@@ -14,7 +14,7 @@ import { ERROR_RAMP, ORDER_RAMP } from './ramps.mjs';
 import { reportOf } from './report.mjs';
 import { saveFiles } from './save.mjs';
 import { hasTargets } from './targets.mjs';
-import { createDecoderPool, decodeGlbBlocks } from './vendor/gltf-mcc/index.mjs';
+import { createDecoderPool, loadGlb } from './vendor/gltf-mcc/index.mjs';
 import { claimsBlocks } from './vendor/gltf-mcc/blocks.mjs';
 import { EXTENSION_NAME } from './vendor/gltf-mcc/document.mjs';
 import { LinkedViews } from './views.mjs';
@@ -244,20 +244,30 @@ class Page {
     });
   }
 
-  /** Shows the blocks of a compressed file one after the other, before all of it is decoded. */
+  /** Shows the previews of a compressed file, and its blocks one after the other, before all of it is decoded. */
   async showBlocks(run, view, bytes) {
-    delete view.canvas.dataset.blocks;
-    if (!hasBlocks(bytes)) return;
+    const shown = view.canvas.dataset;
+    delete shown.previews;
+    delete shown.blocks;
+    const isInBlocks = hasBlocks(bytes);
+    if (!isInBlocks && !hasPreviews(bytes)) return;
     const { json } = readGlb(bytes);
     this.pool ??= createDecoderPool();
+    const onPreview = (block) => {
+      if (block.box === undefined) return;
+      this.views.showBlock(view, block, json);
+      shown.previews = Number(shown.previews ?? 0) + 1;
+    };
+    const onBlock = (block) => {
+      if (block.blockCount === 1 || block.box === undefined) return;
+      this.views.showBlock(view, block, json);
+      shown.blocks = `${block.index + 1} of ${block.blockCount}`;
+    };
     try {
-      for await (const block of decodeGlbBlocks(bytes, { decodeBlocks: this.pool.decodeBlocks, signal: run.stopping.signal })) {
-        if (block.blockCount === 1 || block.box === undefined) continue;
-        this.views.showBlock(view, block, json);
-        view.canvas.dataset.blocks = `${block.index + 1} of ${block.blockCount}`;
-      }
+      const { pool: { decodeBlocks } } = this;
+      await loadGlb(bytes, { decodeBlocks, signal: run.stopping.signal, onPreview, onBlock: isInBlocks ? onBlock : undefined });
     } catch {
-      this.views.clearBlocks(view); // the compressor says what is wrong
+      this.views.clearBlocks(view); // the compressor says what is wrong; a preview does not matter to it
     }
   }
 
@@ -456,10 +466,15 @@ class Page {
 
 /** Whether a payload of a file is in blocks. */
 function hasBlocks(bytes) {
-  const { json: { meshes = [], bufferViews = [] }, bin } = readGlb(bytes);
-  const views = meshes.flatMap(({ primitives = [] }) => primitives).map(({ extensions }) => bufferViews[extensions?.[EXTENSION_NAME]?.bufferView]);
+  const { json: { bufferViews = [], ...json }, bin } = readGlb(bytes);
+  const views = extensionsOf(json).map((extension) => bufferViews[extension?.bufferView]);
   return views.some((view) => view !== undefined && claimsBlocks(bin.subarray(view.byteOffset ?? 0)));
 }
+
+const hasPreviews = (bytes) => extensionsOf(readGlb(bytes).json).some((extension) => extension?.preview !== undefined);
+
+/** The extension objects of all primitives; undefined for those that have none. */
+const extensionsOf = ({ meshes = [] }) => meshes.flatMap(({ primitives = [] }) => primitives).map(({ extensions }) => extensions?.[EXTENSION_NAME]);
 
 /** Says what of the files that were opened together is not shown. */
 function ignoredNotes({ name, ignored }) {

@@ -14,6 +14,13 @@ const ZOOM = 1.15;
 // Draws a surface a little farther away than it is, so that it does not hide the lines on it.
 const BEHIND = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
 
+const nameOf = ({ mesh, primitive }) => `${mesh}/${primitive}`;
+
+function dispose({ geometry, material }) {
+  geometry.dispose();
+  material.dispose();
+}
+
 /** A picture and its contents. */
 class View {
   constructor(canvas) {
@@ -44,8 +51,9 @@ class View {
     if (this.meshes.some(({ own }) => own.metalness > 0.1)) this.scene.environment ??= surroundings(this.renderer);
   }
 
-  /** Adds a block of a model that is not there yet. @param {Matrix4[]} places where it is drawn */
-  addBlock({ attributes, parts, box }, { part, attributes: numbers }, places) {
+  /** Adds a block of a model that is not there yet, or a preview. @param {Matrix4[]} places where it is drawn */
+  addBlock({ attributes, parts, box, isPreview }, use, places) {
+    const { part, attributes: numbers } = use;
     this.blocks ??= new Group();
     const geometry = new BufferGeometry();
     for (const [name, number] of [['position', numbers.POSITION], ['normal', numbers.NORMAL]]) {
@@ -62,16 +70,21 @@ class View {
       const mesh = new Mesh(geometry, material);
       mesh.matrixAutoUpdate = false;
       mesh.matrix.copy(place);
+      mesh.userData.previewOf = isPreview ? nameOf(use) : undefined;
       this.blocks.add(mesh);
     }
     this.scene.add(this.blocks);
   }
 
+  /** Removes the previews of a primitive, all of whose blocks are there. */
+  clearPreviews(use) {
+    const meshes = this.blocks?.children.filter(({ userData }) => userData.previewOf === nameOf(use)) ?? [];
+    meshes.forEach(dispose);
+    this.blocks?.remove(...meshes);
+  }
+
   clearBlocks() {
-    for (const { geometry, material } of this.blocks?.children ?? []) {
-      geometry.dispose();
-      material.dispose();
-    }
+    this.blocks?.children.forEach(dispose);
     this.blocks?.removeFromParent();
     this.blocks = undefined;
   }
@@ -309,7 +322,7 @@ export class LinkedViews {
   }
 
   /**
-   * Shows a block of a model. The first one positions the camera, unless the original is there already.
+   * Shows a block of a model, or a preview, which goes with the last block. The first one positions the camera, unless the original is there already.
    * @param {View} view @param {object} json of the model
    */
   showBlock(view, block, json) {
@@ -319,6 +332,7 @@ export class LinkedViews {
     for (const use of block.uses) {
       if (block.parts[use.part].triangleCount !== 0) view.addBlock(block, use, places.get(use.mesh) ?? []);
     }
+    if (!block.isPreview && block.index === block.blockCount - 1) for (const use of block.uses) view.clearPreviews(use);
     if (isFirst && this.original.model === undefined) this.frame(boxOfDocument(json, places));
     this.draw();
   }

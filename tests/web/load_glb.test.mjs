@@ -6,6 +6,7 @@ import { before, test } from 'node:test';
 import { decodeBlocks, decodeGlbBlocks, EXTENSION_NAME, loadGlb, unpackGlb } from '../../lib/web/index.mjs';
 import { readGlb } from '../../lib/web/unpack.mjs';
 import { blocksGlb, listOf, payloadsIn, streamOf } from './support/blocks.mjs';
+import { binOf, withPreview } from './support/previews.mjs';
 import { convert, readSample } from './support/program.mjs';
 
 const here = { decodeBlocks };
@@ -17,32 +18,8 @@ before(() => {
   // Samples are too small for previews, so that of another one serves: both have only positions and normals.
   preview = payloadsIn(convert(readSample('torus')))[0].bytes;
   glb = withPreview(blocksGlb('torus'), preview);
+  binAt = binOf(glb);
 });
-
-/** Puts a preview in front of what a GLB with one mesh holds. `change` gets the preview object and the document. */
-function withPreview(file, bytes, change = () => {}) {
-  const { json: original, chunks: [{ data }] } = readGlb(file);
-  const json = structuredClone(original);
-  const moved = (bytes.length + 3) & ~3;
-  for (const view of json.bufferViews) view.byteOffset = (view.byteOffset ?? 0) + moved;
-  json.bufferViews.push({ buffer: 0, byteOffset: 0, byteLength: bytes.length });
-  const object = { bufferView: json.bufferViews.length - 1 };
-  json.meshes[0].primitives[0].extensions[EXTENSION_NAME].preview = object;
-  change(object, json);
-  json.buffers[0].byteLength = moved + data.length;
-  const text = new TextEncoder().encode(JSON.stringify(json));
-  const textBytes = (text.length + 3) & ~3;
-  const result = new Uint8Array(28 + textBytes + moved + ((data.length + 3) & ~3)).fill(0x20, 20, 20 + textBytes);
-  const words = new DataView(result.buffer);
-  [0x46546c67, 2, result.length, textBytes, 0x4e4f534a].forEach((word, i) => words.setUint32(4 * i, word, true));
-  result.set(text, 20);
-  binAt = 28 + textBytes;
-  words.setUint32(20 + textBytes, result.length - binAt, true);
-  words.setUint32(24 + textBytes, 0x4e4942, true);
-  result.set(bytes, binAt);
-  result.set(data, binAt + moved);
-  return result;
-}
 
 /** What loadGlb() tells, in its order. */
 async function toldBy(source, options = {}) {
@@ -55,6 +32,9 @@ async function toldBy(source, options = {}) {
 test('the preview comes first, then the blocks, then the file', async () => {
   const { told, bytes } = await toldBy(glb);
   assert.deepEqual(bytes, glb);
+  let document;
+  await loadGlb(glb, { onDocument: (json) => { document = json; } });
+  assert.deepEqual(document, (await readGlb(glb)).json);
   const blocks = await listOf(decodeBlocks(payloadsIn(glb)[0].bytes));
   assert.deepEqual(told.map(({ kind }) => kind), ['preview', ...blocks.map(() => 'block')]);
   assert.deepEqual(told.slice(1).map(({ block }) => block), blocks);

@@ -2,15 +2,17 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import './support/peers.mjs';
+import { DoubleSide, Group, Scene } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { createDecoderPool, decodePayload } from '../../lib/web/index.mjs';
 import { readGlb } from '../../lib/web/unpack.mjs';
-import { blocksGlb, trianglesOf, trianglesOfBlocks } from './support/blocks.mjs';
+import { blocksGlb, payloadsIn, trianglesOf, trianglesOfBlocks } from './support/blocks.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
 import { compareWithManifest, refusesNegatives } from './support/loaders.mjs';
+import { binOf, withPreview } from './support/previews.mjs';
 import { convert, convertWithFallback, readSample } from './support/program.mjs';
 
-const { MeshCollapsePlugin } = await import('../../lib/web/three.mjs');
+const { loadWithPreview, MeshCollapsePlugin, registerMeshCollapse } = await import('../../lib/web/three.mjs');
 
 // What the loader takes for granted in browsers.
 globalThis.self ??= globalThis;
@@ -98,4 +100,95 @@ test('three.js shows the blocks of a large primitive before all of it is there',
   assert.deepEqual([...uses].sort(), [0, 1, 2], 'for each primitive');
   await assert.rejects(load(blocksGlb('torus'), { onBlock() { throw new Error('mine'); } }), /mine/);
   await load(readAsset(manifest.assets[0]), { onBlock: () => assert.fail('it has no blocks') });
+});
+
+/** A preview, which two nodes show, before a model in blocks. */
+function previewedGlb(change = () => {}) {
+  return withPreview(blocksGlb('torus'), payloadsIn(convert(readSample('torus')))[0].bytes, (object, json) => {
+    json.nodes = [{ children: [1, 2], translation: [0, 0, 5] }, { mesh: 0, scale: [2, 2, 2] },
+      { mesh: 0, matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1] }];
+    json.scenes = [{ nodes: [0] }];
+    json.scene = 0;
+    json.materials = [{ pbrMetallicRoughness: { baseColorFactor: [0.25, 0.5, 0.75, 1], roughnessFactor: 0.5 }, doubleSided: true }];
+    json.meshes[0].primitives[0].material = 0;
+    change(json);
+  });
+}
+
+const placeOf = (glb) => `data:model/gltf-binary;base64,${Buffer.from(glb).toString('base64')}`;
+const loadShown = (glb, options) => loadWithPreview(registerMeshCollapse(new GLTFLoader()), placeOf(glb), options);
+const matricesOf = (object) => object.getObjectsByProperty('isMesh', true).map(({ matrixWorld }) => matrixWorld.toArray()).sort();
+
+test('three.js shows a preview where the primitive will be, and blocks that replace it', async () => {
+  const scene = new Scene();
+  const told = [];
+  let matrices;
+  const onPreview = (group, info) => {
+    scene.add(group);
+    scene.updateMatrixWorld();
+    matrices = matricesOf(group);
+    told.push(info);
+    const [{ material, geometry }] = group.children;
+    assert.deepEqual(material.color.toArray(), [0.25, 0.5, 0.75]);
+    assert.deepEqual([material.side, material.roughness, material.metalness, material.flatShading], [DoubleSide, 0.5, 1, false]);
+    assert.equal(geometry.index.count, 3 * 4096);
+    assert.ok(geometry.boundingSphere.radius > 0);
+  };
+  const gltf = await loadShown(previewedGlb(), { onPreview });
+  assert.deepEqual(told, [{ index: 0, blockCount: 1, mesh: 0, primitive: 0 }]);
+  assert.equal(scene.children.length, 0, 'what was shown is gone');
+  gltf.scene.updateMatrixWorld();
+  assert.deepEqual(matrices, matricesOf(gltf.scene));
+  assert.equal(matrices.length, 2);
+
+  const counts = [];
+  const preview = [];
+  const onBlock = (group, { index, blockCount }) => {
+    counts.push(group.children.length);
+    assert.equal(group.children.includes(preview[0]), index < blockCount - 1);
+  };
+  await loadShown(previewedGlb(), { onPreview: (group) => preview.push(...group.children), onBlock });
+  assert.ok(counts.length > 3);
+  assert.deepEqual(counts, counts.map((_, i) => 2 * (i + 1) + (i < counts.length - 1 ? 2 : 0)));
+  assert.ok((await loadShown(previewedGlb())).scene, 'without functions');
+});
+
+test('three.js refuses damaged previews, and shows nothing of a load that ends early', async () => {
+  const damaged = previewedGlb();
+  damaged[binOf(damaged) + 9] ^= 0x55;
+  await assert.rejects(loadShown(damaged, { onPreview: () => assert.fail('shows it') }), { name: 'MccError', message: /^\/bufferViews\// });
+  const onPreview = () => {};
+  const refuses = (change, message) => assert.rejects(loadShown(previewedGlb(change), { onPreview }), { name: 'MccError', message });
+  await refuses((json) => { json.nodes[1].children = [0]; }, '/nodes/0: is in the scene twice');
+  await refuses((json) => { json.nodes[1].children = [99]; }, '/nodes: there is no node 99');
+  await refuses((json) => { json.nodes[1] = null; }, '/nodes/1: must be an object');
+  for (const end of [
+    () => { throw new Error('mine'); },
+    (controller) => controller.abort(new Error('mine')),
+  ]) {
+    const scene = new Group();
+    const controller = new AbortController();
+    const show = (group) => {
+      scene.add(group);
+      end(controller);
+    };
+    await assert.rejects(loadShown(previewedGlb(), { onPreview: show, signal: controller.signal }), { message: 'mine' });
+    assert.equal(scene.children.length, 0);
+  }
+  await assert.rejects(loadWithPreview(new GLTFLoader(), 'data:,', { onPreview: 7 }), { code: 'BadArgument' });
+});
+
+test('three.js tells the manager of a load with a preview, and asks for what the loader would ask for', async (t) => {
+  const asked = [];
+  t.mock.method(globalThis, 'fetch', async (place, options) => {
+    asked.push({ place, ...options });
+    return new Response(null, { status: 404 });
+  });
+  const loader = new GLTFLoader().setPath('models/').setRequestHeader({ Token: 'x' }).setWithCredentials(true);
+  const told = [];
+  loader.manager = { itemStart: () => told.push('start'), itemError: () => told.push('error'), itemEnd: () => told.push('end'),
+    resolveURL: (place) => `https://example.com/${place}` };
+  await assert.rejects(loadWithPreview(loader, 'a.glb'), { code: 'Load', message: 'cannot load https://example.com/models/a.glb: status 404' });
+  assert.deepEqual(asked, [{ place: 'https://example.com/models/a.glb', headers: { Token: 'x' }, credentials: 'include', signal: undefined }]);
+  assert.deepEqual(told, ['start', 'error', 'end']);
 });

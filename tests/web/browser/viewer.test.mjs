@@ -13,7 +13,9 @@ import { readGlb, unpackGlb, writeGlb } from '../../../lib/web/unpack.mjs';
 import { serve } from '../../../samples/viewer/serve.mjs';
 import { gather } from '../../../samples/viewer/setup.mjs';
 import { brotli, encodeFile } from '../support/bench/encode.mjs';
+import { blocksGlb, payloadsIn } from '../support/blocks.mjs';
 import { ENGINES, LIBRARY, SAMPLES } from '../support/paths.mjs';
+import { binOf, withPreview } from '../support/previews.mjs';
 import { convert, decode, PROGRAM, readSample } from '../support/program.mjs';
 import { launchBrowser, openPage } from './support/browser.mjs';
 import { coverageOf, differenceOf } from './support/pixels.mjs';
@@ -104,13 +106,7 @@ async function codecsOf(page) {
   return Object.fromEntries(rows);
 }
 
-function payloadsIn(glb) {
-  const { json, chunks: [{ data }] } = readGlb(glb);
-  return payloadsOf(json).map(({ bufferView }) => {
-    const { byteOffset = 0, byteLength } = json.bufferViews[bufferView];
-    return data.slice(byteOffset, byteOffset + byteLength);
-  });
-}
+const payloadBytesIn = (glb) => payloadsIn(glb).map(({ bytes }) => bytes);
 
 async function click(page, id) {
   await page.click(`#${id}`);
@@ -135,7 +131,7 @@ test('a dropped GLB is compressed, shown beside its source and compared with oth
   for (const name of ['connectivity', 'seams', 'POSITION', 'NORMAL', 'TANGENT', 'TEXCOORD_0', 'header']) assert.ok(names.includes(name), name);
   const totals = await page.$$eval('#streams tfoot .number', (list) => list.map(({ textContent }) => textContent));
   const [ours, draco, meshopt] = totals.map(numberOf);
-  assert.equal(ours, payloadsIn(expected).reduce((sum, { length }) => sum + length, 0));
+  assert.equal(ours, payloadBytesIn(expected).reduce((sum, { length }) => sum + length, 0));
   assert.ok(draco > ours && meshopt > ours, totals.join(' '));
   const sumOf = (column) => rows.reduce((sum, row) => sum + (numberOf(row[column]) || 0), 0);
   assert.ok(Math.abs(sumOf(1) - ours) <= rows.length, 'the streams are not all bytes');
@@ -312,7 +308,7 @@ test('bytes and times of three codecs are shown', async () => {
     const rows = await codecsOf(page);
     const { glb, codecs } = await encodeFile(PROGRAM, path.join(SAMPLES, `${name}.glb`));
     const [draco, meshopt] = ['draco 0', 'meshopt'].map((codec) => codecs[codec].map(({ bytes }) => bytes));
-    const ours = payloadsIn(name === 'morphed' ? convert(withoutTargets(readSample(name))) : glb);
+    const ours = payloadBytesIn(name === 'morphed' ? convert(withoutTargets(readSample(name))) : glb);
     assert.equal(numberOf(rows.Bytes[0]), Buffer.concat(ours).length, name);
     isNear(numberOf(rows['Bytes after brotli'][0]), await brotliBytes(ours), 0.02, `${name} after brotli`);
     // The benchmark has no morph targets either. Draco's lattice has its own origin here, and gets the vertices in the file's order.
@@ -323,7 +319,7 @@ test('bytes and times of three codecs are shown', async () => {
     for (const figure of ['Load + first decode', 'Best decode']) {
       for (const time of rows[figure]) assert.match(time, /^[\d.]+ m?s$/, `${name} ${figure}`);
     }
-    await (name === 'morphed' ? checkMorphTargets(page, rows, payloadsIn(glb)) : checkNoMorphTargets(page, rows));
+    await (name === 'morphed' ? checkMorphTargets(page, rows, payloadBytesIn(glb)) : checkNoMorphTargets(page, rows));
   }
   assert.match(await textOf(page, 'remarks'), /Draco 1\.5\.\d.*meshopt 1\.\d/);
   assert.deepEqual(violations(), []);
@@ -698,6 +694,35 @@ test('a compressed model appears block by block', async () => {
   damaged[damaged.length - 10] ^= 1;
   await drop(page, 'damaged.glb', damaged);
   await page.waitForFunction(() => document.getElementById('error').textContent.includes('checksum'), undefined, { timeout: 30_000 });
+  assert.deepEqual(violations(), []);
+  assert.deepEqual(problems(), []);
+  await page.close();
+});
+
+test('a preview appears first, and damage to it does not matter', async () => {
+  const { page, violations, problems } = await openViewer();
+  await page.evaluate(() => {
+    globalThis.seen = [];
+    const { dataset } = document.getElementById('original');
+    new MutationObserver(() => globalThis.seen.push({ ...dataset })).observe(document.getElementById('original'),
+      { attributeFilter: ['data-blocks', 'data-previews'] });
+  });
+  const seen = () => page.evaluate(() => globalThis.seen);
+  const glb = withPreview(blocksGlb('torus', 500), payloadBytesIn(convert(readSample('torus')))[0]);
+  await drop(page, 'preview.glb', glb);
+  await settle(page);
+  const [first] = await seen();
+  assert.equal(first.previews, '1');
+  assert.equal((await seen()).at(-1).blocks, '9 of 9');
+  const { original, compressed } = await picturesOf(page);
+  assert.ok(coverageOf(original) >= MIN_COVERAGE);
+  assert.ok(differenceOf(original, compressed) <= MAX_DIFFERENCE_FROM_SOURCE);
+  glb[binOf(glb) + 9] ^= 0x55;
+  await page.evaluate(() => { globalThis.seen = []; });
+  await drop(page, 'damaged.glb', glb);
+  await settle(page);
+  assert.ok((await seen()).every(({ previews }) => previews === undefined));
+  assert.ok(coverageOf((await picturesOf(page)).original) >= MIN_COVERAGE);
   assert.deepEqual(violations(), []);
   assert.deepEqual(problems(), []);
   await page.close();

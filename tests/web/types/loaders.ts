@@ -8,7 +8,7 @@ import { createDecoderPool } from '../../../lib/web/index.mjs';
 import { registerMeshCollapse } from '../../../lib/web/babylon.mjs';
 import { KHRMeshCollapseCompression, meshCollapse } from '../../../lib/web/gltf-transform.mjs';
 import * as forLoadersGl from '../../../lib/web/loaders_gl.mjs';
-import { MeshCollapsePlugin, preload, registerMeshCollapse as registerWithThree } from '../../../lib/web/three.mjs';
+import { loadWithPreview, MeshCollapsePlugin, preload, registerMeshCollapse as registerWithThree } from '../../../lib/web/three.mjs';
 
 // What @types/three says of plugins of GLTFLoader.
 interface GLTFLoaderPlugin {
@@ -26,6 +26,13 @@ export const watched = (parser: object): GLTFLoaderPlugin =>
 
 void preload();
 export const loader: { load(): void } = registerWithThree({ load() {} }, { limits: { maxVertices: 1e6 } });
+
+export const shown: Promise<unknown> = loadWithPreview(loader, 'model.glb', {
+  onPreview: (group, { mesh }) => { group.name = `${mesh}`; }, onBlock: (group, { index }) => { group.name = `${index}`; },
+  signal: AbortSignal.timeout(1000), limits: { maxVertices: 1e6 }, decodeBlocks: pool.decodeBlocks,
+});
+// @ts-expect-error the loader decodes with what its plugin was given
+loadWithPreview(loader, 'model.glb', { decode: pool.decodePayload });
 
 registerMeshCollapse();
 registerMeshCollapse({ decode: pool.decodePayload });

@@ -11,7 +11,8 @@
 //   /bundle/…               what a bundler has made
 //   /plain/…                pages that know nothing of the library; ?worker adds the README's line that starts the service worker
 //   /sw.js, /gltf-mcc/…     the README's service worker, and lib/web where it expects it
-//   /files/…                what a test has put into `files`: { body, headers, status }; ranges are honoured
+//   /files/…                what a test has put into `files`: { body, headers, status, rest }; ranges are honoured; `rest` is a
+//                           promise of bytes that are sent when they are there
 import { createHash } from 'node:crypto';
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
@@ -91,7 +92,12 @@ export async function startServer(models, bundle) {
   return { origin: `http://127.0.0.1:${server.address().port}`, missing, files, close };
 }
 
-function sendFile(request, response, { body, headers = {}, status = 200 }) {
+function sendFile(request, response, { body, headers = {}, status = 200, rest }) {
+  if (rest !== undefined) {
+    response.writeHead(status, headers).write(body);
+    rest.then((bytes) => response.end(bytes));
+    return;
+  }
   const [, first, last] = /^bytes=(\d+)-(\d*)$/.exec(request.headers.range ?? '') ?? [];
   if (first === undefined) {
     response.writeHead(status, headers).end(body);

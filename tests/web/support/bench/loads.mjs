@@ -17,13 +17,17 @@ import { wholeFiles } from './whole_files.mjs';
 const DRACO = join(ENGINES, 'three/examples/jsm/libs/draco/gltf');
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm', '.glb': 'model/gltf-binary' };
 
-/** What an application adds to GLTFLoader, and which of its files it loads. */
+/** What an application adds to GLTFLoader, which of its files it loads, and how, if that is another way. */
 const OURS = {
   files: 'mcc', imports: "import { registerMeshCollapse } from 'gltf-mcc/three';", setup: 'registerMeshCollapse(loader);',
 };
 const APPLICATIONS = {
   plain: { files: 'plain', imports: '', setup: '' },
   ours: OURS,
+  preview: {
+    ...OURS, files: 'preview', imports: "import { loadWithPreview, registerMeshCollapse } from 'gltf-mcc/three';",
+    load: 'loadWithPreview(loader, url, { onPreview() { preview ??= performance.now() - begin; } })',
+  },
   inline: { ...OURS, imports: `import 'gltf-mcc/inline'; ${OURS.imports}` },
   draco: {
     files: 'draco',
@@ -43,18 +47,19 @@ const OTHER = {
 };
 export const CODECS = Object.keys(APPLICATIONS);
 
-const scriptOf = ({ imports, setup }) => `
+const scriptOf = ({ imports, setup, load = 'loader.loadAsync(url)' }) => `
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 ${imports}
 globalThis.load = async (urls) => {
   const begin = performance.now();
+  let preview;
   const loader = new GLTFLoader();
   ${setup}
-  const models = await Promise.all(urls.map((url) => loader.loadAsync(url)));
+  const models = await Promise.all(urls.map((url) => ${load}));
   const ms = performance.now() - begin;
   let triangles = 0;
   for (const { scene } of models) scene.traverse(({ geometry }) => { triangles += (geometry?.index?.count ?? 0) / 3; });
-  return { ms, triangles };
+  return { ms, preview, triangles };
 };`;
 
 /**
@@ -87,7 +92,8 @@ export async function makeSite(paths, work, codecs, other, say) {
     say(`compressing ${basename(path)}`);
     const source = new Uint8Array(readFileSync(path));
     const theirs = await wholeFiles(path, ['gltfpack -cc', 'transform draco 5']);
-    const files = { plain: source, mcc: convert(source), draco: theirs.get('transform draco 5'), meshopt: theirs.get('gltfpack -cc') };
+    const previewed = codecs.includes('preview') ? { preview: convert(source, ['--preview']) } : {};
+    const files = { ...previewed, plain: source, mcc: convert(source), draco: theirs.get('transform draco 5'), meshopt: theirs.get('gltfpack -cc') };
     for (const [codec, bytes] of Object.entries(files)) await add(`/models/${codec}/${basename(path)}`, bytes);
   }
   return { contents, codecs: new Map(applications.map(([name, { files }]) => [name, files])) };
@@ -109,7 +115,8 @@ async function serve(contents) {
  * @param site of makeSite()
  * @param {Record<string, string[]>} models names of files that are loaded together, by the name of their row
  * @param {Record<string, { bitsPerSecond: number, roundTripMs: number }>} links
- * @returns {Promise<object>} { [link]: { [row]: { [codec]: median of milliseconds } } }
+ * @returns {Promise<object>} { [link]: { [row]: { [codec]: median of milliseconds } } }; for the codec `preview` until the first preview
+ *   is there, undefined if there is none
  */
 export async function measureLoads({ contents, codecs }, models, links, runs, say) {
   const server = await serve(contents);
@@ -141,9 +148,9 @@ async function loadOnce(browser, origin, codec, kind, files) {
     const page = await context.newPage();
     await page.goto(`${origin}/${codec}/`);
     await page.waitForFunction(() => globalThis.load !== undefined);
-    const { ms, triangles } = await page.evaluate((urls) => globalThis.load(urls), files.map((file) => `/models/${kind}/${file}`));
+    const { ms, preview, triangles } = await page.evaluate((urls) => globalThis.load(urls), files.map((file) => `/models/${kind}/${file}`));
     if (triangles === 0) throw new Error(`${codec}: ${files[0]} has no triangles`);
-    return ms;
+    return codec === 'preview' ? preview : ms;
   } finally {
     await context.close();
   }

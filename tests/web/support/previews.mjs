@@ -1,0 +1,37 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+import { EXTENSION_NAME } from '../../../lib/web/index.mjs';
+import { readGlb } from '../../../lib/web/unpack.mjs';
+
+/**
+ * Puts a preview in front of what a GLB with one mesh holds, because samples are too small for previews.
+ *
+ * @param {Uint8Array} file
+ * @param {Uint8Array} bytes a payload
+ * @param {(object: object, json: object) => void} [change] gets the preview object and the document
+ */
+export function withPreview(file, bytes, change = () => {}) {
+  const { json: original, chunks: [{ data }] } = readGlb(file);
+  const json = structuredClone(original);
+  const moved = (bytes.length + 3) & ~3;
+  for (const view of json.bufferViews) view.byteOffset = (view.byteOffset ?? 0) + moved;
+  json.bufferViews.push({ buffer: 0, byteOffset: 0, byteLength: bytes.length });
+  const object = { bufferView: json.bufferViews.length - 1 };
+  json.meshes[0].primitives[0].extensions[EXTENSION_NAME].preview = object;
+  change(object, json);
+  json.buffers[0].byteLength = moved + data.length;
+  const text = new TextEncoder().encode(JSON.stringify(json));
+  const textBytes = (text.length + 3) & ~3;
+  const result = new Uint8Array(28 + textBytes + moved + ((data.length + 3) & ~3)).fill(0x20, 20, 20 + textBytes);
+  const words = new DataView(result.buffer);
+  [0x46546c67, 2, result.length, textBytes, 0x4e4f534a].forEach((word, i) => words.setUint32(4 * i, word, true));
+  result.set(text, 20);
+  const binAt = 28 + textBytes;
+  words.setUint32(20 + textBytes, result.length - binAt, true);
+  words.setUint32(24 + textBytes, 0x4e4942, true);
+  result.set(bytes, binAt);
+  result.set(data, binAt + moved);
+  return result;
+}
+
+/** Where the bytes of the BIN chunk begin in a GLB. */
+export const binOf = (glb) => 28 + new DataView(glb.buffer, glb.byteOffset).getUint32(12, true);
