@@ -85,8 +85,8 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
     options.max_position_error = max_position_error
     options.is_error_relative = is_error_relative
     if position_lattice is not None:
-        x, y, z, step = position_lattice
-        lattice = _library.Lattice((x, y, z, 0), step)
+        x, y, z, lattice_step = position_lattice
+        lattice = _library.Lattice((x, y, z, 0), lattice_step)
         options.position_lattice = ctypes.pointer(lattice)
     options.step = step
     options.quality = quality
