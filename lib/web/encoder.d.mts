@@ -67,6 +67,8 @@ export interface EncodeOptions {
   blockTriangles?: number;
   /** Compresses even where that makes the file larger. */
   allowLarger?: boolean;
+  /** 2, or 3 as in the draft of glTF 2.1. Default: 2, but a copy of the input keeps its version. */
+  glbVersion?: 2 | 3;
   fallback?: false;
   /**
    * Decodes buffer views that meshoptimizer compressed. Without it, encodeGlb() rejects files whose

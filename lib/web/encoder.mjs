@@ -25,6 +25,7 @@ const OTHERS = {
   step: [isStep, 'a power of two from 2 ** -126 to 2 ** 127'],
   quality: [(pixels) => typeof pixels === 'number' && pixels >= 16 && pixels <= 2 ** 20, 'a number of pixels from 16 to 1048576'],
   blockTriangles: [(count) => Number.isInteger(count) && count >= 0 && count < 2 ** 32 - 1, 'a number of triangles, or 0 for no blocks'],
+  glbVersion: [(version) => version === 2 || version === 3, '2 or 3'],
   fallback: [(fallback) => fallback === false, 'false: a fallback is a second file, which the command line tool writes'],
   meshoptDecoder: [isDecoder, 'MeshoptDecoder of the npm package meshoptimizer, where WebAssembly is supported'],
 };
@@ -209,7 +210,7 @@ function isStep(step) {
 }
 
 function setOptions(exports, options) {
-  const { grid = 'mesh', maxPositionError, prefer = 'balanced', positionLattice, blockTriangles, step, quality } = options;
+  const { grid = 'mesh', maxPositionError, prefer = 'balanced', positionLattice, blockTriangles, step, quality, glbVersion } = options;
   const flag = (name) => (options[name] ? 1 : 0);
   exports.setBits(...Object.entries(BITS).map(([name, [standard]]) => options[name] ?? standard));
   exports.setModes(flag('lossless'), flag('indicesOnly'), GRIDS.indexOf(grid), flag('keepVertexOrder'),
@@ -219,4 +220,5 @@ function setOptions(exports, options) {
   if (positionLattice !== undefined) exports.setLattice(...positionLattice);
   if (step !== undefined) exports.setStep(step);
   if (quality !== undefined) exports.setQuality(quality);
+  if (glbVersion !== undefined) exports.setGlbVersion(glbVersion);
 }

@@ -182,6 +182,25 @@ class Addon(unittest.TestCase):
         self.assertEqual(sizes, sorted(sizes))
         self.assertLess(sizes[0], sizes[2])
 
+    def test_export_has_a_quality_and_a_step(self):
+        import_file(Path(SAMPLES, "textured.glb"))
+        sizes = []
+        for pixels in (64, 1024, 16384):
+            bpy.ops.export_scene.gltf_mcc(filepath=str(self.path(f"{pixels}.glb")), quality=pixels)
+            sizes.append(self.path(f"{pixels}.glb").stat().st_size)
+        self.assertEqual(sizes, sorted(sizes))
+        self.assertLess(sizes[0], sizes[2])
+        step = 2.0**-6
+        bpy.ops.export_scene.gltf_mcc(filepath=str(self.path("step.glb")), step=step)
+        plain = self.path("plain.glb")
+        self.run_program("decode", self.path("step.glb"), plain)
+        for mesh in import_file(plain).values():
+            for position, _ in mesh["vertices"]:
+                for coordinate in position:
+                    self.assertEqual(coordinate / step, round(coordinate / step))
+        with self.assertRaisesRegex(RuntimeError, "quality"):
+            bpy.ops.export_scene.gltf_mcc(filepath=str(self.path("both.glb")), step=step, quality=1024)
+
     def test_remembered_options(self):
         import_file(Path(SAMPLES, "textured.glb"))
         bpy.context.scene["glTF2ExportSettings"] = {"export_texcoords": False, "of_a_later_version": 1}

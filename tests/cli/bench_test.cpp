@@ -98,6 +98,42 @@ TEST(Bench, WithoutAFeatureTheBytesOfSomeSampleChange) {
   }
 }
 
+TEST(Bench, MeshletsOfBothOrdersAndOfMeshoptimizer) {
+  MCC_REQUIRE_COMPARISON();
+  const ScratchFolder folder;
+  const std::string samples = samplePath("torus.glb") + " " + samplePath("two_materials.glb");
+  const ToolResult result = runTool(folder, "bench --meshlets --format json " + samples);
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json json = Json::parse(result.out);
+  ASSERT_EQ(json.size(), 2u);
+  for (const Json& file : json) {
+    SCOPED_TRACE(file["file"]);
+    EXPECT_GT(file["triangles"], 0);
+    EXPECT_GT(file["triangles_decode_seconds"], 0);
+    EXPECT_GT(file["decode_seconds"], 0);
+    ASSERT_EQ(file["orders"].size(), 3u);
+    for (const auto& [name, order] : file["orders"].items()) {
+      SCOPED_TRACE(name);
+      EXPECT_NEAR(order["triangles_per_meshlet"].get<double>() * order["meshlets"].get<double>(),
+                  file["triangles"].get<double>(), 1e-6);
+      EXPECT_LE(order["triangles_per_meshlet"], 124);
+      EXPECT_GT(order["vertices_per_triangle"], 0.5);
+      EXPECT_LE(order["vertices_per_triangle"], 3);
+      EXPECT_GT(order["mean_radius"], 0);
+      EXPECT_GE(order["mean_1_minus_cutoff"], 0);
+      EXPECT_LE(order["mean_1_minus_cutoff"], 1);
+      EXPECT_GT(order["seconds"], 0);
+    }
+    const Json& round = file["orders"]["round"];
+    const Json& in_order = file["orders"]["in_order"];
+    EXPECT_LT(round["mean_radius"].get<double>(), in_order["mean_radius"].get<double>());
+  }
+  const ToolResult csv = runTool(folder, "bench --meshlets --format csv " + samples);
+  ASSERT_EQ(csv.status, 0) << csv.err;
+  EXPECT_EQ(std::count(csv.out.begin(), csv.out.end(), '\n'), 7) << csv.out;
+  EXPECT_EQ(runTool(folder, "bench --meshlets none.glb").status, 1);
+}
+
 TEST(Bench, WithoutAnUnknownFeatureNamesThoseThereAre) {
   MCC_REQUIRE_COMPARISON();
   const ScratchFolder folder;

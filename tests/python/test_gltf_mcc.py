@@ -274,7 +274,8 @@ class Builder:
                              min=[0, 1, 2], max=[3 * count - 3, 3 * count - 2, 3 * count - 1])
 
 
-BYTE, UBYTE, SHORT, USHORT, UINT, FLOAT = 5120, 5121, 5122, 5123, 5125, 5126
+BYTE, UBYTE, SHORT, USHORT, INT, UINT, FLOAT = 5120, 5121, 5122, 5123, 5124, 5125, 5126
+DOUBLE, HALF, LONG, ULONG = 5130, 5131, 5134, 5135  # of the draft of glTF 2.1
 
 
 def flat(array):
@@ -358,6 +359,35 @@ class MeshesOfFiles(unittest.TestCase):
         self.assertEqual(primitive.material, 0)
         self.assertEqual(primitive.indices.tolist(), [[0, 1, 2]])  # one vertex is left over
         primitive.positions[0, 0] = 7  # the arrays are the caller's
+
+    def test_types_of_the_draft_of_2_1(self):
+        made = Builder()
+        rows = {"_I": (INT, "i", [-2**31, -1, 0, 2**31 - 1]), "_D": (DOUBLE, "d", [0.1, -1e300, 0.0, 5e-324]),
+                "_H": (HALF, "e", [0.5, -65504.0, 0.0, 2**-24]), "_L": (LONG, "q", [-2**63, -1, 0, 2**63 - 1]),
+                "_U": (ULONG, "Q", [0, 1, 2**63, 2**64 - 1])}
+        attributes = {name: made.accessor("SCALAR", kind, 4, struct.pack(f"<4{code}", *values))
+                      for name, (kind, code, values) in rows.items()}
+        attributes["POSITION"] = made.accessor("VEC3", DOUBLE, 4, struct.pack("<12d", *[0.1] * 12))
+        attributes["_N"] = made.accessor("SCALAR", INT, 4, struct.pack("<4i", -2**31, -2**31 + 1, 0, 2**31 - 1), normalized=True)
+        attributes["_P"] = made.accessor("SCALAR", ULONG, 4, struct.pack("<4Q", 0, 2**62, 2**63, 2**64 - 1), normalized=True)
+        attributes["WEIGHTS_0"] = made.accessor("SCALAR", LONG, 4, struct.pack("<4q", 0, 1, -3, 2**40))
+        made.primitive(attributes=attributes)
+        primitive, = self.read(made)
+        found = primitive.attributes
+        for name, (_, code, values) in rows.items():
+            self.assertEqual(flat(found[name]), values, name)
+            is_wide = code == "e" and arrays.numpy is None  # no memoryview has floats of 16 bits
+            self.assertEqual(struct.calcsize(memoryview(found[name]).format), struct.calcsize("f" if is_wide else code), name)
+        self.assertEqual(flat(found["POSITION"]), [0.1] * 12, "every bit is kept")
+        self.assertEqual(flat(found["_N"]), [-1, -1, 0, 1])
+        self.assertEqual(flat(found["_P"]), [0, 0.25, 0.5, 1])
+        self.assertEqual(flat(found["WEIGHTS_0"]), [0, 1, -3, 2**40])
+        made = Builder()
+        made.primitive(attributes={"POSITION": made.positions()}, indices=made.accessor("SCALAR", LONG, 3, bytes(24)))
+        self.refuses(made, "holds no indices")
+        made = Builder()
+        made.primitive(attributes={"POSITION": made.positions(), "_A": made.accessor("SCALAR", 5132, 4, bytes(16))})
+        self.refuses(made, "componentType: is unknown")
 
     def test_every_mode(self):
         made = Builder()

@@ -79,6 +79,15 @@ test('a step and a quality', async () => {
   assert.equal(usual.report.quality_choices, undefined);
 });
 
+test('the version of the GLB', async () => {
+  const [usual, second, third] = await Promise.all([{}, { glbVersion: 2 }, { glbVersion: 3 }].map((options) => encodeGlb(sample('genus3'), options)));
+  const versionOf = (glb) => new DataView(glb.buffer).getUint32(4, true);
+  assert.deepEqual([usual, second, third].map(({ glb }) => versionOf(glb)), [2, 2, 3]);
+  assert.deepEqual(second.glb, usual.glb);
+  assert.deepEqual(await unpackGlb(third.glb, { glbVersion: 2 }), await unpackGlb(usual.glb));
+  assert.equal(third.report.options.glb_version, 3);
+});
+
 test('imports nothing', async () => {
   assert.deepEqual(WebAssembly.Module.imports(await WebAssembly.compile(wasm('mcc_encoder'))), []);
 });
@@ -90,7 +99,7 @@ test('what is wrong is said', async () => {
     return error.code;
   });
   for (const options of [{ positionBits: 25 }, { normalBits: 1 }, { positionBits: '14' }, { grid: 'world' }, { maxPositionError: 0 },
-    { positionbits: 14 }, { lossless: 1 }, { effort: 1 }, { prefer: 'beauty' }, { blockTriangles: -1 }, { positionLattice: [0, 0, 0, 0] }, { step: 0.001 }, { step: '1' },
+    { positionbits: 14 }, { lossless: 1 }, { effort: 1 }, { prefer: 'beauty' }, { blockTriangles: -1 }, { positionLattice: [0, 0, 0, 0] }, { step: 0.001 }, { step: '1' }, { glbVersion: 0 }, { glbVersion: 4 }, { glbVersion: '2' },
     { step: 2 ** -127 }, { step: 1, maxPositionError: 1 }, { step: 1, lossless: true }, { quality: 15 }, { quality: 2 ** 20 + 1 },
     { quality: NaN }, { quality: '64' }, { quality: 64, normalBits: 8 }, { quality: 64, step: 1 }, { quality: 64, lossless: true }, { fallback: true }]) {
     assert.equal(await codeOf(sample('torus'), options), 'BadArgument', JSON.stringify(options));

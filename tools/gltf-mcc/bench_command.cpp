@@ -5,6 +5,7 @@
 
 #include "bench/measure.h"
 #include "bench/measure_blocks.h"
+#include "bench/measure_meshlets.h"
 #include "bench/measure_without.h"
 #include "bench_report.h"
 #include "blocks_report.h"
@@ -12,6 +13,7 @@
 #include "foreign/decoders.h"
 #include "gltf/files/file_io.h"
 #include "host/text.h"
+#include "meshlets_report.h"
 #include "other_programs.h"
 #include "program.h"
 #include "progress_line.h"
@@ -28,6 +30,7 @@ struct BenchCommand : BenchOptions {
   int run() const;
   int runWithout() const;
   int runBlocks() const;
+  int runMeshlets() const;
   template <class Measure>
   int runEach(const Measure& measure) const;
   gltf::Result load(const std::string& input, bench::Geometry& geometry) const;
@@ -90,6 +93,7 @@ int BenchCommand::run() const {
   }
   if (!without.empty()) return runWithout();
   if (!blocks.empty()) return runBlocks();
+  if (with_meshlets) return runMeshlets();
   int status = kDone;
   std::vector<bench::FileFigures> files;
   {
@@ -151,6 +155,19 @@ int BenchCommand::runBlocks() const {
       });
   if (files.empty()) return status;
   return printOut(blocksReport(files, common.format)) == kDone ? status : kFailed;
+}
+
+int BenchCommand::runMeshlets() const {
+  std::vector<bench::MeshletsOfFile> files;
+  const int status =
+      runEach([&](const std::string& name, const bench::Geometry& geometry, const auto& tell) {
+        bench::MeshletsOfFile figures;
+        bench::Outcome done = bench::measureMeshlets(name, geometry, run_count, tell, figures);
+        if (done.ok()) files.push_back(std::move(figures));
+        return done;
+      });
+  if (files.empty()) return status;
+  return printOut(meshletsReport(files, common.format)) == kDone ? status : kFailed;
 }
 
 /// Loads every file and measures it. One that fails does not stop the others.

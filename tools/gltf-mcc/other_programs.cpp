@@ -140,6 +140,10 @@ Command& addBench(Program& program, BenchOptions& options) {
            "Measure blocks of N triangles, 0 for none (0,65536,262144):\n"
            "bytes, time with one and two threads, working memory")
       .is_list = true;
+  command.addFlag("--meshlets", options.with_meshlets,
+                  "Measure meshlets of the decoded triangles, in both orders,\n"
+                  "and those of meshopt_buildMeshlets(): vertices, bounding\n"
+                  "spheres, cones of normals, time");
   command.add("--sizes", "FILE", &options.sizes, "Only write our bytes per stream to this file")
       .is_hidden = true;  // for tests/results
   addFormatOption(command, options.common);

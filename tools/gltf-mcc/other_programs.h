@@ -59,6 +59,7 @@ struct BenchOptions {
   bool with_load = false;
   std::string without;           ///< when not empty: only this is measured
   std::vector<uint32_t> blocks;  ///< when not empty: only this is measured
+  bool with_meshlets = false;    ///< only these are measured
 };
 
 /// Each of these adds a command without Command::run. The options must outlive the command.

@@ -5,13 +5,14 @@ import tempfile
 from pathlib import Path
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from . import gltf_mcc
 
 # Under this name Blender's exporter keeps its options in a scene if "Remember Export Settings" is on.
 REMEMBERED = "glTF2ExportSettings"
+BITS = ("position_bits", "normal_bits", "texcoord_bits", "color_bits", "weight_bits")
 
 
 class ExportCompressed(bpy.types.Operator, ExportHelper):
@@ -23,6 +24,13 @@ class ExportCompressed(bpy.types.Operator, ExportHelper):
     filter_glob: StringProperty(default="*.glb", options={"HIDDEN"})
 
     lossless: BoolProperty(name="Lossless", description="Every number keeps every bit", default=False)
+    quality: IntProperty(
+        name="Quality", description="If not 0, how large a mesh is drawn, from 16 pixels on: no position moves by more than "
+                                    "a pixel, and all bits follow; 4096 is usual", default=0, min=0, max=2**20)
+    step: FloatProperty(
+        name="Step", description="If not 0, a power of two such as 0.0009765625: the step of a lattice of positions through "
+                                 "the origin, so that everything exported with the same step fits together",
+        default=0.0, min=0.0, precision=6)
     position_bits: IntProperty(
         name="Position", description="Bits of a coordinate; 0 keeps every bit", default=14, min=0, max=24)
     normal_bits: IntProperty(name="Normal", description="0 keeps every bit", default=10, min=0, max=16)
@@ -50,9 +58,13 @@ class ExportCompressed(bpy.types.Operator, ExportHelper):
         layout.use_property_decorate = False
         column = layout.column(heading="Compression")
         column.prop(self, "lossless")
+        lossy = layout.column()
+        lossy.enabled = not self.lossless
+        lossy.prop(self, "quality")
+        lossy.prop(self, "step")
         bits = layout.column(heading="Bits")
-        bits.enabled = not self.lossless
-        for name in ("position_bits", "normal_bits", "texcoord_bits", "color_bits", "weight_bits"):
+        bits.enabled = not self.lossless and self.quality == 0
+        for name in BITS:
             bits.prop(self, name)
         layout.prop(self, "prefer")
         layout.prop(self, "keep_vertex_order")
@@ -83,11 +95,18 @@ class ExportCompressed(bpy.types.Operator, ExportHelper):
             known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
             bpy.ops.export_scene.gltf(**{name: value for name, value in options.items() if name in known})
             small = gltf_mcc.convert(
-                plain, position_bits=self.position_bits, normal_bits=self.normal_bits,
-                texcoord_bits=self.texcoord_bits, color_bits=self.color_bits, weight_bits=self.weight_bits,
-                lossless=self.lossless, prefer=self.prefer, keep_vertex_order=self.keep_vertex_order,
-                thread_count=os.cpu_count() or 1)
+                plain, lossless=self.lossless, prefer=self.prefer, keep_vertex_order=self.keep_vertex_order,
+                thread_count=os.cpu_count() or 1, **self.precision())
             return os.path.getsize(plain), small
+
+    def precision(self):
+        """Returns the options for what may be lost. The library refuses those that exclude each other."""
+        if self.lossless:
+            return {}
+        options = {"step": self.step, "quality": self.quality}
+        if self.quality == 0:
+            options.update((name, getattr(self, name)) for name in BITS)
+        return options
 
 
 def write(path, data):

@@ -26,8 +26,9 @@ struct Meshlet {
 
 /// Which triangles go into a meshlet.
 enum class MeshletShape : uint8_t {
-  /// Those around its vertices, so that it is round: as few vertices and as small a sphere as
-  /// meshopt_buildMeshlets() gives, in a few hundredths of the time.
+  /// Those around its vertices, so that it is round: about as few vertices as with
+  /// meshopt_buildMeshlets(), in less than a tenth of the time, but larger spheres
+  /// (docs/benchmarks.md), because positions are not looked at.
   kRound = 0,
   /// The next ones of the list, as meshopt_buildMeshletsScan() does. Two to six times as fast, but
   /// the decoder's list is a spiral, so that meshlets are long strips.

@@ -13,8 +13,10 @@ from typing import Any, Callable, Dict, List, Optional, Tuple
 from .arrays import array_over, numpy
 from .errors import Error, printable
 
-_CODES = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}  # of struct and memoryview
-_SCALES = {"b": 127, "B": 255, "h": 32767, "H": 65535, "I": 2**32 - 1}
+# Codes of struct and memoryview. docs/gltf-2.1.md has the types that the draft of glTF 2.1 adds.
+_CODES = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5124: "i", 5125: "I", 5126: "f",
+          5130: "d", 5131: "e", 5134: "q", 5135: "Q"}
+_SCALES = {"b": 127, "B": 255, "h": 32767, "H": 65535, "i": 2**31 - 1, "I": 2**32 - 1, "q": 2**63 - 1, "Q": 2**64 - 1}
 _COLUMNS_AND_ROWS = {"SCALAR": (1, 1), "VEC2": (1, 2), "VEC3": (1, 3), "VEC4": (1, 4),
                      "MAT2": (2, 2), "MAT3": (3, 3), "MAT4": (4, 4)}
 _FOREIGN = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression")
@@ -104,12 +106,17 @@ class Document:
 
     def values(self, number: int, as_floats: bool, path: str) -> Any:
         """Returns the array of an accessor, a row for each element. Integers that stand for fractions become these, and
-        others become floats if the caller asks for them."""
+        others become floats if the caller asks for them. Floats of 16 and 64 bits keep their type, but no memoryview
+        can have 16 bits: without NumPy, they get 32, which hold the same values."""
         def make() -> Any:
             memory, code, count, width, is_normalized = self._elements(number, path)
-            if code != "f" and (as_floats or is_normalized):
+            if code in _SCALES and (as_floats or is_normalized):
                 self.take(4 * count * width)
                 memory, code = _floats(memory, code, is_normalized), "f"
+            elif code == "e" and numpy is None:
+                self.take(4 * count * width)
+                halves = (half for half, in struct.iter_unpack("e", memory))
+                memory, code = bytearray(array.array("f", halves).tobytes()), "f"
             return array_over(memory, code, (count, width))
         return self.once(("values", number, as_floats), make)
 
