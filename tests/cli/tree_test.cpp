@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <regex>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "cli/run_tool.h"
 
@@ -50,6 +53,37 @@ class Tree : public testing::Test {
     return {number(found[1]), number(found[2])};
   }
 
+  using Tenths = std::pair<long, long>;
+
+  /// Returns the points of the triangles' paths, whose numbers are relative to the points before.
+  static std::vector<Tenths> cornersOf(const std::string& svg) {
+    std::vector<Tenths> corners;
+    const std::regex path("<path fill=[^>]* d=\"([^\"]*)\"");
+    const std::regex triangle("m([^ml]+)");
+    const std::regex number("-?[0-9]*\\.?[0-9]+");
+    const auto each = [](const std::string& text, const std::regex& what, const auto& visit) {
+      for (std::sregex_iterator i(text.begin(), text.end(), what), end; i != end; ++i) visit(*i);
+    };
+    each(svg, path, [&](const std::smatch& data) {
+      Tenths start = {0, 0};
+      each(data[1], triangle, [&](const std::smatch& steps) {
+        std::vector<long> tenths;
+        each(steps[1], number, [&](const std::smatch& step) {
+          tenths.push_back(std::lround(10 * std::stod(step.str())));
+        });
+        ASSERT_EQ(tenths.size(), 6u) << steps.str();
+        start = {start.first + tenths[0], start.second + tenths[1]};
+        Tenths point = start;
+        corners.push_back(point);
+        for (size_t i = 2; i < 6; i += 2) {
+          point = {point.first + tenths[i], point.second + tenths[i + 1]};
+          corners.push_back(point);
+        }
+      });
+    });
+    return corners;
+  }
+
   ScratchFolder folder_;
 };
 
@@ -90,6 +124,24 @@ TEST_F(Tree, DrawsWhatIsAskedFor) {
   }
   EXPECT_EQ(run("tree " + samplePath("torus.glb") + " tree.svg -q").out, "");
   EXPECT_EQ(contentOf(folder_.path() / "tree.svg"), draw(samplePath("torus.glb")));
+}
+
+/// Triangles are grouped by their colours: each shade has a few paths, although the order from back
+/// to front changes between shades at almost every triangle.
+TEST_F(Tree, HasFewPaths) {
+  const std::string svg = draw(samplePath("torus.glb"));
+  EXPECT_GT(cornersOf(svg).size(), 4000u);
+  EXPECT_LT(countOf(svg, "<path fill="), 150u);
+}
+
+/// Triangles meet in the same tenths wherever their paths have begun: a rounding that added up
+/// would draw a vertex at another place for each of its about six triangles.
+TEST_F(Tree, RelativePointsDoNotDrift) {
+  for (const char* view : {"", " --view 0,0,1", " --size 333"}) {
+    const std::vector<Tenths> corners = cornersOf(draw(samplePath("torus.glb") + view));
+    EXPECT_GT(corners.size(), 3000u) << view;
+    EXPECT_LE(std::set<Tenths>(corners.begin(), corners.end()).size(), 2048u) << view;
+  }
 }
 
 TEST_F(Tree, SaysWhatCannotBeDrawn) {

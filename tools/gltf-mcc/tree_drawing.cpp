@@ -11,6 +11,7 @@
 #include "projection.h"
 #include "svg.h"
 #include "table.h"
+#include "tree_faces.h"
 #include "tree_legend.h"
 
 namespace mcc::tool {
@@ -65,7 +66,7 @@ class Drawing {
   struct Line {
     uint32_t depth;
     std::string color;
-    std::string path;
+    PathData path;
   };
 
   const PagePoint& point(uint32_t vertex) const { return page_.points[vertex]; }
@@ -73,7 +74,7 @@ class Drawing {
   std::string surface() const;
   std::vector<Line> lines() const;
   std::string trees() const;
-  std::string pathOf(const Branch& branch, size_t first, size_t last) const;
+  bool addPath(const Branch& branch, size_t first, size_t last, PathData& path) const;
   std::string markers() const;
   bool isSeen(uint32_t vertex) const;
   bool hasRoomForMarkers() const { return line_ > 0.0016 * width_; }
@@ -122,29 +123,34 @@ std::string Drawing::surface() const {
   std::string out =
       fmt::format("<g stroke-width=\"{}\" stroke-linejoin=\"round\"{}>\n",
                   fmt::format("{:.2f}", 0.0007 * width_), has_wires ? " stroke=\"#aab0c0\"" : "");
-  std::string open;
+  std::vector<FlatFace> flat;
   for (const Face& face : faces) {
-    const uint32_t t = face.triangle;
-    const Lighting light = lightingOf(corner(t, 0), corner(t, 1), corner(t, 2));
+    const PagePoint& a = corner(face.triangle, 0);
+    const PagePoint& b = corner(face.triangle, 1);
+    const PagePoint& c = corner(face.triangle, 2);
+    const Lighting light = lightingOf(a, b, c);
     const double level = std::floor(std::min(light.shade, 0.999) * kShades) / (kShades - 1);
     const Color* range = light.is_front ? kFront : kBack;
-    const std::string color = nameOf(between(range[0], range[1], level));
-    if (color != open) {
-      if (!open.empty()) out += "\"/>\n";
-      out += "<path fill=\"" + color + (has_wires ? "\"" : "\" stroke=\"" + color + "\"") + " d=\"";
-      open = color;
-    }
-    out += "M" + place(corner(t, 0).x, corner(t, 0).y) + "L" +
-           place(corner(t, 1).x, corner(t, 1).y) + " " + place(corner(t, 2).x, corner(t, 2).y) +
-           "z";
+    flat.push_back({{a.x, b.x, c.x}, {a.y, b.y, c.y}, nameOf(between(range[0], range[1], level))});
   }
-  return out + (open.empty() ? "" : "\"/>\n") + "</g>\n";
+  for (const FaceGroup& group : groupsOf(flat)) {
+    PathData path;
+    for (const uint32_t f : group.faces) {
+      path.moveTo(flat[f].x[0], flat[f].y[0]);
+      path.lineTo(flat[f].x[1], flat[f].y[1]);
+      path.lineTo(flat[f].x[2], flat[f].y[2]);
+      path.close();
+    }
+    out += fmt::format("<path fill=\"{0}\"{1} d=\"{2}\"/>\n", group.color,
+                       has_wires ? "" : " stroke=\"" + group.color + "\"", path.text());
+  }
+  return out + "</g>\n";
 }
 
-/// Returns the visible parts of the edges first … last - 1 of a branch.
-std::string Drawing::pathOf(const Branch& branch, size_t first, size_t last) const {
+/// Adds the visible parts of the edges first … last - 1 of a branch. Returns whether there are any.
+bool Drawing::addPath(const Branch& branch, size_t first, size_t last, PathData& path) const {
   constexpr double kSample = 1.5;  // distance of samples in pixels
-  std::string path;
+  const size_t size_before = path.text().size();
   bool is_down = false;  // whether the pen is down
   for (size_t i = first; i < last; ++i) {
     const PagePoint& a = point(branch.vertices[i]);
@@ -163,32 +169,31 @@ std::string Drawing::pathOf(const Branch& branch, size_t first, size_t last) con
       const double middle = end - 0.5 / count;
       const bool is_seen = depth_.sees(a.x + (b.x - a.x) * middle, a.y + (b.y - a.y) * middle,
                                        a.z + (b.z - a.z) * middle);
-      if (is_seen && !is_down) path += "M" + place(x, y);
+      if (is_seen && !is_down) path.moveTo(x, y);
       x = a.x + (b.x - a.x) * end;
       y = a.y + (b.y - a.y) * end;
       const bool ends_line = is_seen ? k == count : is_down;
       if (ends_line) {
         const double back = is_seen ? 0 : 1.0 / count;
-        path += "L" + place(x - (b.x - a.x) * back, y - (b.y - a.y) * back);
+        path.lineTo(x - (b.x - a.x) * back, y - (b.y - a.y) * back);
       }
       is_down = is_seen;
     }
   }
-  return path;
+  return path.text().size() > size_before;
 }
 
 std::vector<Drawing::Line> Drawing::lines() const {
   std::vector<Line> lines;
   const auto add = [&](uint32_t depth, const Color& color, const Branch& branch, size_t first,
                        size_t last) {
-    std::string path = pathOf(branch, first, last);
-    if (path.empty()) return;
     const std::string name = nameOf(color);
     if (!lines.empty() && lines.back().color == name) {
-      lines.back().path += path;
-    } else {
-      lines.push_back({depth, name, std::move(path)});
+      addPath(branch, first, last, lines.back().path);
+      return;
     }
+    PathData path;
+    if (addPath(branch, first, last, path)) lines.push_back({depth, name, std::move(path)});
   };
   const double all = static_cast<double>(std::max<size_t>(tree_.edges.size(), 2) - 1);
   for (const Branch& branch : branches_) {
@@ -210,18 +215,21 @@ std::vector<Drawing::Line> Drawing::lines() const {
   return lines;
 }
 
-/// Draws all lines first in white and somewhat wider, so that they stand out from the surface.
+/// Draws all lines first in white and somewhat wider, so that they stand out from the surface. The
+/// coloured ones refer to the paths of the white ones.
 std::string Drawing::trees() const {
   const std::vector<Line> all = lines();
   std::string out = fmt::format(
       "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
       "<g stroke=\"#fff\" stroke-opacity=\"0.75\" stroke-width=\"{:.2f}\">\n",
       1.9 * line_);
-  for (const Line& line : all) out += "<path d=\"" + line.path + "\"/>\n";
+  for (size_t i = 0; i < all.size(); ++i) {
+    out += fmt::format("<path id=\"line{}\" d=\"{}\"/>\n", i, all[i].path.text());
+  }
   out += "</g>\n";
-  for (const Line& line : all) {
-    out += fmt::format("<path stroke=\"{}\" stroke-width=\"{:.2f}\" d=\"{}\"/>\n", line.color,
-                       line.depth == 0 ? line_ : 0.85 * line_, line.path);
+  for (size_t i = 0; i < all.size(); ++i) {
+    out += fmt::format("<use href=\"#line{}\" stroke=\"{}\" stroke-width=\"{:.2f}\"/>\n", i,
+                       all[i].color, all[i].depth == 0 ? line_ : 0.85 * line_);
   }
   return out + "</g>\n";
 }

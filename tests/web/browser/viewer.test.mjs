@@ -180,7 +180,7 @@ test('wireframe, error heat map and collapse order are drawn', async () => {
   assert.ok(saturatedPixels(tree.compressed) > MIN_LINES, 'no coloured lines');
   // A tree has an edge less than vertices; divides add a few, holes take a few.
   const edges = Number((await textOf(page, 'legend-high')).match(/last of ([\d,]+)/)[1].replaceAll(',', ''));
-  assert.ok(edges > 1728 * 0.8 && edges < 1728 * 1.2, `${edges} edges`);
+  assert.ok(edges > 644 * 0.8 && edges < 644 * 1.2, `${edges} edges`);
 
   // The order of a payload is not drawn on another one's vertices.
   await page.check('[name=keepVertexOrder]');
