@@ -1431,6 +1431,7 @@ class Maker {
             f.set("0.flags", f.get("0.flags") | piece_flag::kAnchors);
           });
     const std::map<std::string, const char*> wanted = {
+        {"an anchor is no vertex", "An anchor with a number that no vertex has"},
         {"an anchor is not known", "An anchor that is not coded yet"},
         {"a turn has no order of axes", "The number of an order of axes is above 5"}};
     searchErrors(asset, "A.6.15", wanted);

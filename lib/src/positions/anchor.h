@@ -50,7 +50,8 @@ class AnchorCoder {
     const bool is_last = last_ != kNone && io_.bit(models_->is_last, truth.vertex == last_);
     const uint32_t bits = static_cast<uint32_t>(std::bit_width(vertex_count_ - 1));
     const uint32_t vertex = is_last ? last_ : io_.raw(bits, truth.vertex);
-    if (vertex >= vertex_count_ || vertex == first || !records_[vertex].known())
+    if (vertex >= vertex_count_) return fail(Error::kBadAttribute, "an anchor is no vertex");
+    if (vertex == first || !records_[vertex].known())
       return fail(Error::kBadAttribute, "an anchor is not known");
     Turn turn = 0;
     for (uint32_t s = 0; s < 3; ++s)
