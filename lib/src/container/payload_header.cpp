@@ -168,7 +168,7 @@ Status checkReferences(AttributeInfos all, uint8_t version_minor, size_t at) {
     if (!isKnownPredictor(method, all[i].predictor)) {
       return fail(Error::kBadHeader, "an attribute has an unknown predictor", at);
     }
-    // Of what later versions added, the core has only mates.
+    // The core knows no predictor that later versions added, except mates.
     const uint8_t needed =
         kWhole ? minorVersionOf(method, all[i].predictor) : asksMates(method, all[i].predictor);
     if (needed > version_minor) {

@@ -4,20 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <unordered_map>
+
+#include "positions/enc_point.h"
 
 namespace mcc {
 namespace {
-
-using Point = std::array<int32_t, 3>;
-struct PointHash {
-  size_t operator()(const Point& p) const {
-    uint64_t h = 0;
-    for (const int32_t x : p) h = (h ^ static_cast<uint32_t>(x)) * 0x9e3779b97f4a7c15u;
-    return static_cast<size_t>(h ^ h >> 32);
-  }
-};
-using PointMap = std::unordered_map<Point, uint32_t, PointHash>;
 
 struct Component {
   std::vector<uint32_t> vertices;  ///< in coding order

@@ -8,19 +8,11 @@
 #include <vector>
 
 #include "base/enc_exceptions.h"
+#include "positions/enc_point.h"
 
 namespace mcc {
 namespace {
 
-using Point = std::array<int32_t, 3>;
-
-struct PointHash {
-  size_t operator()(const Point& p) const {
-    uint64_t h = 0;
-    for (const int32_t x : p) h = (h ^ static_cast<uint32_t>(x)) * 0x9e3779b97f4a7c15u;
-    return static_cast<size_t>(h ^ h >> 32);
-  }
-};
 using Points = std::unordered_set<Point, PointHash>;
 
 /// Sums with more votes than others are tried.
@@ -123,7 +115,7 @@ void guessMates(std::span<const int32_t> positions, std::span<const uint32_t> or
                 const Mirrors& mirrors, const Anchors& anchors, VertexMates& mates) {
   if (!mates.assign(mirrors.count, anchors.count != 0, order.size(), kNone)) throwBadAlloc();
   for (uint32_t m = 0; m < mirrors.count; ++m) mates.axis[m] = mirrors.mirror[m].axis;
-  std::unordered_map<Point, uint32_t, PointHash> at;
+  PointMap at;
   for (const uint32_t v : order) {
     Point p;
     std::copy_n(&positions[3 * size_t{v}], 3, p.data());

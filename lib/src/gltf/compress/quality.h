@@ -18,20 +18,21 @@ inline constexpr double kMostPixels = 1 << 20;
 struct StatedErrors {
   explicit StatedErrors(double pixels);
 
-  /// Of positions: how far a vertex may move, as a share of the model's size. It is a pixel.
+  /// How far a vertex may move, as a share of the model's size: this is a pixel of its picture.
   double share;
-  /// Of normals, and of tangents around their normals. Shading does not depend on the size on the
-  /// screen as positions do: an error of `share` on a smooth surface turns its normals by something
-  /// like the root of it, so four times the pixels halve the angle. At 4,096 pixels it is a quarter
-  /// of a degree, about one of the 256 steps of brightness.
+  /// How far normals may turn, and tangents around their normals. Shading does not depend on the
+  /// size on the screen as positions do: an error of `share` on a smooth surface turns its normals
+  /// by something like the root of it, so four times the pixels halve the angle. At 4,096 pixels it
+  /// is a quarter of a degree, about one of the 256 steps of brightness.
   double radians;
-  /// Of colours from 0 to 1: half of one of 255 steps.
+  /// How far a colour from 0 to 1 may change: half a step of the 255 that a screen has.
   double color = 0.5 / 255;
-  /// Of weights. A vertex moves by the error times the distance between the places to which two
-  /// joints would move it, of which half the model's size is a lot.
+  /// How far a weight may change. A vertex moves by this error times the distance between the
+  /// places to which two joints would move it, of which half the model's size is a lot.
   double weight;
 
-  /// Of texture coordinates: a quarter of a texel or, when it is more, of a pixel on the screen.
+  /// Returns how far texture coordinates may move: a quarter of a texel or, when that is more, of a
+  /// pixel on the screen. Nobody would see what less than the larger of the two gains.
   /// texels  along the longer side of the largest texture that they look up, see countedTexels().
   /// range   of the coordinates. It is taken for the whole model; where textures repeat, it is not
   ///         more than one of them.
