@@ -750,9 +750,49 @@ TEST(Convert, SmallMeshesShareAPayload) {
   EXPECT_EQ(placeOf(2, 1), (std::pair{shared, uint64_t{2}}));
   EXPECT_EQ(placeOf(5, 0), (std::pair{shared, uint64_t{3}}));
   EXPECT_NE(placeOf(1, 0).first, shared);
-  // Equal meshes have equal payloads, which brotli and gzip find.
+  // Equal meshes have a payload of their own.
   EXPECT_NE(placeOf(3, 0).first, shared);
-  EXPECT_NE(placeOf(3, 0).first, placeOf(4, 0).first);
+  EXPECT_EQ(placeOf(3, 0), placeOf(4, 0));
+}
+
+/// Meshes that the source has twice, in different accessors, share the bytes of a payload. Their
+/// accessors stay apart, and their materials and the numbers of a mesh between them do not matter.
+TEST(Convert, TwinsShareAPayload) {
+  Builder builder;
+  for (const uint32_t size : {20u, 16u, 20u, 20u}) {
+    Json primitive = Sheet(size).addTo(builder);
+    primitive["material"] = builder.json["meshes"].size();
+    builder.addMesh({primitive});
+  }
+  builder.json["materials"] = Json::array();
+  for (int i = 0; i < 4; ++i) builder.json["materials"].push_back(Json::object());
+  const RoundTrip trip = roundTrip(builder);
+  ASSERT_EQ(trip.error, "");
+  const Json json = jsonOf(trip.converted);
+  const auto primitiveOf = [&](const Json& document, size_t mesh) {
+    return document["meshes"][mesh]["primitives"][0];
+  };
+  const auto viewOf = [&](size_t mesh) {
+    return primitiveOf(json, mesh)["extensions"][kExtensionName]["bufferView"].get<uint64_t>();
+  };
+  EXPECT_EQ(json["bufferViews"].size(), 2u);
+  EXPECT_EQ(viewOf(0), viewOf(2));
+  EXPECT_EQ(viewOf(0), viewOf(3));
+  EXPECT_NE(viewOf(0), viewOf(1));
+  ASSERT_EQ(trip.report.payloads.size(), 4u);
+  EXPECT_EQ(trip.report.payloads[2].same_as, 0u);
+  EXPECT_EQ(trip.report.payloads[3].same_as, 0u);
+  EXPECT_EQ(trip.report.payloads[3].payload_bytes, 0u);
+  EXPECT_EQ(trip.report.payloads[0].same_as, kNone);
+  const Json source = jsonOf(trip.source);
+  const Json decoded = jsonOf(trip.decoded);
+  for (size_t mesh = 0; mesh < 4; ++mesh) {
+    EXPECT_EQ(primitiveOf(decoded, mesh), primitiveOf(source, mesh)) << "accessors of " << mesh;
+  }
+  for (uint32_t accessor = 0; accessor < source["accessors"].size(); ++accessor) {
+    const size_t count = elementsInOrder(trip.source, accessor).size();
+    EXPECT_EQ(elementsInOrder(trip.decoded, accessor).size(), count) << accessor;
+  }
 }
 
 /// Each mesh keeps its lattice and its order, whatever the others of the payload have.

@@ -217,8 +217,11 @@ struct StreamReport {
 
 /// A payload that convertGlb() wrote.
 struct PayloadReport {
-  uint32_t mesh = 0;  ///< the first mesh it belongs to
-  uint64_t payload_bytes = 0;
+  uint32_t mesh = 0;           ///< the first mesh it belongs to
+  uint64_t payload_bytes = 0;  ///< in the file
+  /// An earlier payload, whose bytes and view it shares, so that it takes none and has no streams:
+  /// index into ConvertReport::payloads; kNone: it has bytes of its own.
+  uint32_t same_as = kNone;
   uint64_t freed_bytes = 0;   ///< buffer bytes that the payload replaces
   uint64_t wedge_count = 0;   ///< glTF vertices
   uint64_t vertex_count = 0;  ///< topological vertices (distinct positions)

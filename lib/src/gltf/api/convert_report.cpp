@@ -17,7 +17,7 @@ void addStreams(const StreamSizes& sizes, PayloadReport& report) {
 
 void addCounts(const EncodedPayload& payload, PayloadReport& report) {
   report.mesh = payload.plan.mesh;
-  report.payload_bytes = payload.result.payload.size();
+  report.same_as = payload.same_as;
   report.freed_bytes = payload.freed_bytes;
   report.piece_count = static_cast<uint32_t>(payload.plan.pieces.size());
   report.block_count = payload.result.block_count;
@@ -101,9 +101,12 @@ void addPayloads(const std::vector<EncodedPayload>& payloads,
   for (size_t i = 0; i < payloads.size(); ++i) {
     PayloadReport payload;
     addCounts(payloads[i], payload);
-    addStreams(payloads[i].result.sizes, payload);
     payload.attributes = proofs[i].attributes;
-    addAttributeBits(payloads[i], proofs[i].rows, payload.attributes);
+    if (payloads[i].same_as == kNone) {  // else it takes no bytes
+      payload.payload_bytes = payloads[i].result.payload.size();
+      addStreams(payloads[i].result.sizes, payload);
+      addAttributeBits(payloads[i], proofs[i].rows, payload.attributes);
+    }
     report.payloads.push_back(std::move(payload));
   }
 }

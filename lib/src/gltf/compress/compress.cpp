@@ -47,11 +47,12 @@ class Applier {
     accessors_ = &compressed_.json["accessors"];
     meshes_ = &compressed_.json["meshes"];
     std::vector<NewView> views;
+    std::vector<uint64_t> view_of;  // the view of each payload
     for (const EncodedPayload& payload : compressed_.payloads) {
-      const uint64_t view = kFirstNewView + views.size();
-      NewView new_view;
-      new_view.borrow(payload.result.payload);
-      views.push_back(std::move(new_view));
+      const bool is_new = payload.same_as == kNone;
+      const uint64_t view = is_new ? kFirstNewView + views.size() : view_of[payload.same_as];
+      view_of.push_back(view);
+      if (is_new) views.emplace_back().borrow(payload.result.payload);
       for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
         applyPiece(payload, i, view);
         renumberVertices(document_, payload.plan.pieces[i], payload.result.pieces[i].source_wedge,
@@ -203,6 +204,19 @@ class Applier {
   std::map<uint32_t, bool> is_long_;  ///< by source accessor: the JSON of its copies is shortened
 };
 
+/// Finds the payloads that repeat an earlier one: of meshes that the source has twice, in different
+/// accessors.
+void findTwins(std::vector<EncodedPayload>& payloads) {
+  const auto isLess = [](std::span<const uint8_t> a, std::span<const uint8_t> b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::map<std::span<const uint8_t>, uint32_t, decltype(isLess)> first_of(isLess);
+  for (uint32_t i = 0; i < payloads.size(); ++i) {
+    const auto [found, is_new] = first_of.try_emplace(payloads[i].result.payload, i);
+    payloads[i].same_as = is_new ? kNone : found->second;
+  }
+}
+
 void sortByPlace(std::vector<LeftAlone>& left_alone) {
   std::stable_sort(
       left_alone.begin(), left_alone.end(),
@@ -239,6 +253,7 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
   } else {
     dropLosers(document, compressed.payloads, compressed.left_alone);
   }
+  findTwins(compressed.payloads);
   sortByPlace(compressed.left_alone);
   MCC_GLTF_TRY(makePreviews(options, compressed.payloads, compressed.previews, compressed.remarks));
   for (const EncodedPayload& payload : compressed.payloads) {

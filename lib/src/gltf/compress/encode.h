@@ -25,6 +25,8 @@ struct EncodedPayload {
   PayloadPlan plan;
   EncodeResult result;
   std::vector<PieceBounds> bounds;  ///< one for each piece, from provePayloads()
+  /// An earlier payload with the same bytes, whose view it shares; kNone: there is none.
+  uint32_t same_as = kNone;
   uint64_t freed_bytes = 0;
 };
 

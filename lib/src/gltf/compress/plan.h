@@ -107,8 +107,8 @@ Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& p
                    size_t part_number);
 
 /// Puts small meshes together into one payload, which spares headers and shares adaptive models.
-/// The lattices of meshes must have been chosen before. Equal meshes stay apart: brotli and gzip
-/// find equal payloads, while shared models would make them differ.
+/// The lattices of meshes must have been chosen before. Equal meshes stay apart: equal payloads
+/// share their bytes, while shared models would make them differ.
 void gatherPayloads(std::vector<PayloadPlan>& payloads);
 
 /// Divides payloads that hold more than every reader accepts by its default Limits, and gives

@@ -46,6 +46,7 @@ Json payloadJson(const PayloadReport& payload) {
                {"leftover_triangles", payload.leftover_triangle_count},
                {"stream_bytes", streams},
                {"attributes", attributes}};
+  if (payload.same_as != kNone) json["same_as"] = payload.same_as;
   if (payload.block_count != 0) json["blocks"] = payload.block_count;
   if (!payload.whole_because.empty()) json["whole_because"] = payload.whole_because;
   return json;
