@@ -11,7 +11,6 @@
 #include "cli/run_tool.h"
 #include "gltf/document/accessors.h"
 #include "gltf/files/file_io.h"
-#include "gltf/files/named_file.h"
 #include "support/gltf_builder.h"
 #include "support/made_files.h"
 

@@ -9,7 +9,6 @@
 #include <functional>
 
 #include "gltf/check/prove.h"
-#include "gltf/check/values.h"
 #include "gltf/compress/compress.h"
 #include "gltf/compress/quantize.h"
 #include "support/gltf_builder.h"

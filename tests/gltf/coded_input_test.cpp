@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "gltf/files/file_io.h"
-#include "gltf/files/named_file.h"
 #include "gltf/made_up_codecs.h"
 #include "mcc/files.h"
 #include "support/scratch_folder.h"

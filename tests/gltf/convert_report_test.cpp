@@ -1,10 +1,10 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-#include "gltf/api/convert_report.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "gltf/inspect/report_json.h"
 #include "gltf/round_trip.h"
 
 namespace mcc::gltf::test {

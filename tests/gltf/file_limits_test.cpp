@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "gltf/files/file_io.h"
-#include "gltf/files/named_file.h"
 #include "gltf/round_trip.h"
 #include "support/scratch_folder.h"
 #if !defined(_WIN32)

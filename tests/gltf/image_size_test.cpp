@@ -1,5 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-#include "gltf/document/image_size.h"
+#include "gltf/compress/texture_uses.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-#include "gltf/files/named_file.h"
+#include "gltf/files/file_io.h"
 
 #include <gtest/gtest.h>
 

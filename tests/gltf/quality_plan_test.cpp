@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // ConvertOptions::quality: decodes what was written, and measures the errors by itself.
-#include "gltf/compress/quality_plan.h"
+#include "gltf/compress/quality.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 #include <limits>
 #include <numbers>
 
-#include "gltf/compress/quality.h"
 #include "gltf/round_trip.h"
 #include "support/made_images.h"
 

@@ -12,7 +12,6 @@
 #include "gltf/document/layout.h"
 #include "gltf/document/references.h"
 #include "gltf/files/file_io.h"
-#include "gltf/files/named_file.h"
 #include "host/parallel.h"
 
 namespace mcc::bench {

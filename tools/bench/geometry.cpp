@@ -6,7 +6,6 @@
 #include "gltf/compress/quantize.h"
 #include "gltf/decompress/coded_input.h"
 #include "gltf/files/file_io.h"
-#include "gltf/files/named_file.h"
 #include "host/parallel.h"
 
 namespace mcc::bench {

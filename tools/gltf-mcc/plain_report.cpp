@@ -5,10 +5,9 @@
 
 #include <set>
 
-#include "gltf/document/contents.h"
+#include "gltf/document/layout.h"
 #include "gltf/document/references.h"
 #include "gltf/files/file_io.h"
-#include "gltf/files/named_file.h"
 #include "host/parallel.h"
 #include "host/text.h"
 #include "suggest.h"

@@ -12,7 +12,6 @@
 #include "gltf/api/convert.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
-#include "gltf/files/named_file.h"
 #include "gltf/inspect/report_json.h"
 #include "host/parallel.h"
 #include "host/result.h"

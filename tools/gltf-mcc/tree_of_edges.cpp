@@ -8,7 +8,6 @@
 #include "gltf/document/accessors.h"
 #include "gltf/document/payload.h"
 #include "gltf/files/file_io.h"
-#include "gltf/files/named_file.h"
 #include "host/parallel.h"
 #include "mcc/writer.h"
 
@@ -72,7 +71,8 @@ Result treeOfPayload(const Document& document, const ExtensionUse& use, McTree& 
   const std::string where = use.path + "/bufferView";
   DecodedPayload decoded;
   MCC_GLTF_TRY(toResult(decoded.payload.open(payloadBytes(document, use.view)), where));
-  MCC_GLTF_TRY(checkAgainstPayload(document, use, decoded.payload.info()));
+  MCC_GLTF_TRY(
+      checkAgainstPayload(document, PayloadUse{use.view, {&use}, {}}, decoded.payload.info()));
   EdgeTaker taker;
   taker.wanted_piece = static_cast<uint32_t>(use.piece);
   mcc::DecodeOptions options;

@@ -8,7 +8,6 @@
 #endif
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
-#include "gltf/files/named_file.h"
 #include "host/text.h"
 #include "json/json.h"
 

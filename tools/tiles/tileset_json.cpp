@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "gltf/files/file_io.h"
-#include "gltf/files/named_file.h"
 #include "host/result.h"
 #include "host/text.h"
 #include "json/json_scanner.h"

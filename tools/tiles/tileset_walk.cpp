@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "gltf/files/file_io.h"
-#include "gltf/files/named_file.h"
 #include "host/result.h"
 #include "host/text.h"
 #include "json/json.h"

@@ -7,7 +7,6 @@
 
 #include "gltf/files/destination.h"
 #include "gltf/files/file_io.h"
-#include "gltf/files/named_file.h"
 #include "host/result.h"
 
 namespace mcc::gltf {

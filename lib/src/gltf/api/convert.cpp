@@ -2,6 +2,7 @@
 //
 // Implements the public functions: load, compress or decompress, write, check.
 #include "gltf/api/convert.h"
+#include "gltf/inspect/report_json.h"
 
 #include <algorithm>
 #include <chrono>
@@ -10,18 +11,16 @@
 #include <set>
 
 #include "format/codings.h"
-#include "gltf/api/convert_report.h"
 #include "gltf/check/check.h"
 #include "gltf/check/prove.h"
 #include "gltf/compress/compress.h"
 #include "gltf/compress/quality.h"
 #include "gltf/decompress/coded_input.h"
 #include "gltf/decompress/decompress.h"
-#include "gltf/document/contents.h"
 #include "gltf/document/layout.h"
 #include "gltf/document/uri.h"
 #include "gltf/files/destination.h"
-#include "gltf/files/named_file.h"
+#include "gltf/files/file_io.h"
 #include "host/parallel.h"
 #include "host/text.h"
 

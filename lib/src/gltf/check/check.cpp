@@ -9,11 +9,10 @@
 
 #include "gltf/check/compare.h"
 #include "gltf/check/prove.h"
-#include "gltf/check/values.h"
 #include "gltf/decompress/coded_input.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/accessors.h"
-#include "gltf/document/contents.h"
+#include "gltf/document/layout.h"
 
 namespace mcc::gltf {
 namespace {

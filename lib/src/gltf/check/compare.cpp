@@ -7,7 +7,6 @@
 #include <unordered_set>
 
 #include "gltf/document/accessors.h"
-#include "gltf/document/known_extensions.h"
 #include "gltf/document/layout.h"
 #include "gltf/document/references.h"
 
@@ -183,7 +182,9 @@ Exceptions exceptionsOf(const Document& document, const std::vector<PrimitiveRef
   exceptLists(root, exceptions);
   const auto exceptNumber = [&](const Json& number) { exceptions.alike.insert(&number); };
   visitViewReferences(root, [&](const Json& number, uint32_t) { exceptNumber(number); });
-  visitMissingAccessors(root, document.accessors.size(), exceptNumber);
+  visitAccessorReferences(root, [&](const Json& number) {
+    if (isMissing(number, document.accessors.size())) exceptNumber(number);
+  });
   for (const PrimitiveRef& ref : compressed)
     exceptGeometry(*document.primitive(ref).json, exceptions);
   exceptAccessors(root, touched, accessor_count, exceptions);
@@ -229,7 +230,9 @@ class BytesChecker {
   void addTables() {
     const auto numbersOf = [](const Document& document) {
       std::vector<const Json*> numbers;
-      visitTableViews(document.json, [&](const Json& number) { numbers.push_back(&number); });
+      for (const std::string_view path : kTableViews) {
+        visitPath(&document.json, path, [&](const Json& number) { numbers.push_back(&number); });
+      }
       return numbers;
     };
     const std::vector<const Json*> old_numbers = numbersOf(source_);

@@ -10,13 +10,10 @@
 #include "container/payload_header.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/accessors.h"
-#include "gltf/document/issues.h"
-#include "gltf/document/known_extensions.h"
 #include "gltf/document/package.h"
 #include "gltf/document/payload.h"
 #include "gltf/document/references.h"
 #include "gltf/files/file_io.h"
-#include "gltf/files/named_file.h"
 #include "host/parallel.h"
 #include "host/text.h"
 #include "mcc/files.h"
@@ -69,11 +66,11 @@ class Validator {
     checkOtherViewUses(uses_of_view);
     const std::vector<PayloadUse> payloads = payloadUses(document_, uses_);
     report_.payload_count = static_cast<uint32_t>(payloads.size());
-    if (issues_.passes(Rule::kPayloadView, checkPayloadLengths(document_, payloads))) {
+    if (issues_.passes(rule::kPayloadView, checkPayloadLengths(document_, payloads))) {
       for (const PayloadUse& payload : payloads) checkPayload(payload);
     }
     // Reported once; payloads below the limit were checked.
-    issues_.passes(Rule::kDecodedBytes, decoded_bytes_.check());
+    issues_.passes(rule::kDecodedBytes, decoded_bytes_.check());
   }
 
  private:
@@ -86,13 +83,13 @@ class Validator {
       return view != kNone && document_.isMissing(document_.views[view].buffer);
     };
     if (document_.is_glb && document_.isMissing(0)) {
-      issues_.add(Rule::kDocument, "/buffers/0", "the buffer has neither a URI nor a BIN chunk");
+      issues_.add(rule::kDocument, "/buffers/0", "the buffer has neither a URI nor a BIN chunk");
     }
     for (uint32_t view = 0; view < document_.views.size(); ++view) {
-      if (!isMissing(view)) issues_.passes(Rule::kDocument, document_.views[view].fault);
+      if (!isMissing(view)) issues_.passes(rule::kDocument, document_.views[view].fault);
     }
     for (const Accessor& accessor : document_.accessors) {
-      if (!isMissing(accessor.view)) issues_.passes(Rule::kDocument, accessor.fault);
+      if (!isMissing(accessor.view)) issues_.passes(rule::kDocument, accessor.fault);
     }
   }
 
@@ -102,9 +99,9 @@ class Validator {
     const Json* nested = findMember(extension, "extensions");
     if (nested == nullptr) return;
     const std::string path = use.path + "/extensions";
-    if (!nested->is_object()) return issues_.add(Rule::kSchema, path, "must be an object");
+    if (!nested->is_object()) return issues_.add(rule::kSchema, path, "must be an object");
     for (const auto& [name, value] : nested->items()) {
-      if (!value.is_object()) issues_.add(Rule::kSchema, at(path, name), "must be an object");
+      if (!value.is_object()) issues_.add(rule::kSchema, at(path, name), "must be an object");
     }
   }
 
@@ -122,13 +119,13 @@ class Validator {
     const bool is_required = isListed(json_, "extensionsRequired");
     if (uses_.empty()) {
       if (is_used || is_required) {
-        issues_.add(Rule::kUnusedExtension, is_used ? "/extensionsUsed" : "/extensionsRequired",
+        issues_.add(rule::kUnusedExtension, is_used ? "/extensionsUsed" : "/extensionsRequired",
                     std::string(kExtensionName) + " is listed, but no primitive has it");
       }
       return;
     }
     if (!is_used) {
-      issues_.add(Rule::kListedAsUsed, "/extensionsUsed",
+      issues_.add(rule::kListedAsUsed, "/extensionsUsed",
                   std::string(kExtensionName) + " is not listed");
     }
     const std::set<uint32_t> filled = filledAccessors();
@@ -138,18 +135,18 @@ class Validator {
     }
     if (bare.size() == filled.size()) {
       if (!is_required) {
-        issues_.add(Rule::kListedAsRequired, "/extensionsRequired",
+        issues_.add(rule::kListedAsRequired, "/extensionsRequired",
                     std::string(kExtensionName) +
                         " is not listed, though there is no fallback for loaders without it");
       }
       return;
     }
     for (const uint32_t accessor : bare) {
-      issues_.add(Rule::kFallbackForAll, at("/accessors", accessor),
+      issues_.add(rule::kFallbackForAll, at("/accessors", accessor),
                   "is filled from a payload and has no fallback, as others of the file do");
     }
     if (is_required && bare.empty()) {
-      issues_.add(Rule::kListedAsRequired, "/extensionsRequired",
+      issues_.add(rule::kListedAsRequired, "/extensionsRequired",
                   std::string(kExtensionName) + " is listed, though everything has a fallback");
     }
   }
@@ -158,7 +155,7 @@ class Validator {
     const Json& json = views[view];
     for (const char* key : {"byteStride", "target"}) {
       if (findMember(json, key) == nullptr) continue;
-      issues_.add(Rule::kPayloadView, at(at("/bufferViews", view), key),
+      issues_.add(rule::kPayloadView, at(at("/bufferViews", view), key),
                   "must not be defined: the buffer view holds a payload");
     }
   }
@@ -174,7 +171,7 @@ class Validator {
     });
     for (const auto& [view, count] : uses_of_view) {
       if (counts[view] <= count) continue;
-      issues_.add(Rule::kSharedPayloadView, at("/bufferViews", view),
+      issues_.add(rule::kSharedPayloadView, at("/bufferViews", view),
                   "holds a payload, but something else refers to it, too");
     }
   }
@@ -188,7 +185,7 @@ class Validator {
     if (!opened.ok()) return issues_.addPayloadError(opened, where);
     const PayloadInfo& info = decoded.payload.info();
     if (info.version_minor > kVersionMinor) {
-      issues_.add(Rule::kMinorVersion, where,
+      issues_.add(rule::kMinorVersion, where,
                   "the payload has version " + std::to_string(info.version_major) + "." +
                       std::to_string(info.version_minor) + "; what is new in it is not checked");
     }
@@ -225,11 +222,11 @@ class Validator {
   }
 
   void checkManifold(const ExtensionUse& use, const PayloadInfo& info) {
-    if (!isManifold(meshes_[use.mesh])) return;
+    if (extensionOf(meshes_[use.mesh], kManifoldExtension) == nullptr) return;
     if (use.piece >= info.pieces.size()) return;
     const PieceInfo& piece = info.pieces[use.piece];
     if (piece.keeps_vertex_order && piece.keeps_triangle_order) return;
-    issues_.add(Rule::kManifold, at("/meshes", use.mesh) + "/extensions/EXT_mesh_manifold",
+    issues_.add(rule::kManifold, at("/meshes", use.mesh) + "/extensions/EXT_mesh_manifold",
                 "refers to vertices and triangles by number, whose order piece " +
                     std::to_string(use.piece) + " of the payload does not keep");
   }
@@ -254,12 +251,12 @@ class Validator {
       const auto& [parts, attributes] = used[p];
       for (uint32_t k = 0; k < info.pieces[p].parts.size(); ++k) {
         if (parts.contains(k) || info.pieces[p].parts[k].triangle_count == 0) continue;
-        issues_.add(Rule::kUnusedPart, where,
+        issues_.add(rule::kUnusedPart, where,
                     "no primitive draws part " + std::to_string(k) + " of " + piece);
       }
       for (uint32_t k = 0; k < info.pieces[p].attributes.size() && !parts.empty(); ++k) {
         if (attributes.contains(k)) continue;
-        issues_.add(Rule::kUnusedAttribute, where,
+        issues_.add(rule::kUnusedAttribute, where,
                     "no primitive names attribute " + std::to_string(k) + " of " + piece);
       }
     }
@@ -286,7 +283,7 @@ class Validator {
     const Json* min = findMember(json, "min");
     const Json* max = findMember(json, "max");
     if (needs_bounds && (min == nullptr || max == nullptr)) {
-      issues_.add(Rule::kBounds, path, "POSITION needs min and max");
+      issues_.add(rule::kBounds, path, "POSITION needs min and max");
     }
     if (min != nullptr || max != nullptr) {
       const Bounds bounds = boundsOf(tight, accessor.component_type, accessor.componentCount());
@@ -300,7 +297,7 @@ class Validator {
                    const std::string& path) {
     if (declared == nullptr) return;
     const std::string difference = boundsDifference(*declared, decoded, type);
-    if (!difference.empty()) issues_.add(Rule::kBounds, path, difference);
+    if (!difference.empty()) issues_.add(rule::kBounds, path, difference);
   }
 
   void checkFallback(uint32_t number, std::span<const uint8_t> tight) {
@@ -308,19 +305,19 @@ class Validator {
     const std::string path = at("/accessors", number);
     AccessorData elements;
     if (accessor.view == kNone && findMember(accessors_[number], "sparse") == nullptr) {
-      return issues_.add(Rule::kFallbackLoaded, path, "its fallback could not be loaded");
+      return issues_.add(rule::kFallbackLoaded, path, "its fallback could not be loaded");
     }
-    if (!issues_.passes(Rule::kFallbackLoaded, readAccessor(document_, number, elements))) return;
+    if (!issues_.passes(rule::kFallbackLoaded, readAccessor(document_, number, elements))) return;
     for (uint64_t i = 0; i < elements.count; ++i) {
       const std::span<const uint8_t> element = elements.element(i);
       if (std::memcmp(element.data(), &tight[i * element.size()], element.size()) == 0) continue;
-      issues_.add(Rule::kFallbackElements, path,
+      issues_.add(rule::kFallbackElements, path,
                   "element " + std::to_string(i) + " of the fallback differs from the decoded one");
       break;
     }
     if (accessor.view == kNone) return;
     if (!payload_buffers_.contains(document_.views[accessor.view].buffer)) return;
-    issues_.add(Rule::kFallbackBuffer, at("/bufferViews", accessor.view) + "/buffer",
+    issues_.add(rule::kFallbackBuffer, at("/bufferViews", accessor.view) + "/buffer",
                 "holds a fallback in the same buffer as a payload; if it had its own, loaders that "
                 "know the extension would not have to load it");
   }
@@ -366,7 +363,7 @@ void validateBytes(std::span<const uint8_t> bytes, const FileReader& read_file,
   Json json;
   if (readJson(bytes, json).ok()) describe(json, report);
   Document document;
-  if (!issues.passes(Rule::kDocument, loadDocument(bytes, read_file, document))) return;
+  if (!issues.passes(rule::kDocument, loadDocument(bytes, read_file, document))) return;
   report.input_bytes = document.source_bytes;
   Validator(json, document, options, issues, report).run();
 }

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "gltf/compress/preview.h"
-#include "gltf/compress/quality_plan.h"
+#include "gltf/compress/quality.h"
 #include "gltf/compress/quantize.h"
 #include "gltf/compress/savings.h"
 #include "gltf/compress/vertices.h"

@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "base/crc32.h"
-#include "gltf/document/known_extensions.h"
 #include "gltf/document/references.h"
 #include "host/text.h"
 #include "mesh/face_mesh.h"
@@ -79,8 +78,8 @@ class Planner {
   static MeshExtensions extensionsOf(const Json& mesh) {
     MeshExtensions result;
     result.order_part = nameInNote(orderDependentPart(mesh, NumbersOfVertices::kStay));
-    result.is_manifold = isManifold(mesh);
-    visitGroupedPrimitives(mesh, [&](const Json& number) {
+    result.is_manifold = extensionOf(mesh, kManifoldExtension) != nullptr;
+    visitPath(&mesh, kGroupedPrimitives, [&](const Json& number) {
       uint64_t primitive = 0;
       if (asUnsigned(number, primitive)) result.grouped.insert(primitive);
     });

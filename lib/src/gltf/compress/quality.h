@@ -1,11 +1,17 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// What ConvertOptions::quality stands for: an error for each kind of attribute, and the bits that
-// keep within an angle.
+// What ConvertOptions::quality stands for: an error for each kind of attribute, the bits that keep
+// within an angle, and the choice of bits and lattices from them.
 #ifndef MCC_GLTF_COMPRESS_QUALITY_H_
 #define MCC_GLTF_COMPRESS_QUALITY_H_
 
 #include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gltf/compress/plan.h"
+#include "gltf/document/document.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf {
 
@@ -55,6 +61,14 @@ double octahedralBound(uint32_t bits);
 uint8_t octahedralBitsFor(double radians);
 /// Returns the fewest bits of the lattice from 0 to 1 that have no longer step.
 uint8_t unitBitsFor(double step);
+
+/// Does for options.quality, which is not 0, what planQuantization() does for bits: chooses those
+/// of every float attribute, and lattices that keep within the errors that the quality stands for.
+/// Notes say what stays exact, and which triangles lose their area. `choices` says what was chosen.
+/// Takes linear time.
+void planQuality(const Document& document, const ConvertOptions& options,
+                 std::vector<PayloadPlan>& payloads, std::vector<std::string>& notes,
+                 std::vector<QualityChoice>& choices);
 
 }  // namespace mcc::gltf
 

@@ -4,13 +4,132 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 #include "format/codings.h"
-#include "gltf/compress/fit_lattice.h"
-#include "values/enc_extent.h"
 
 namespace mcc::gltf {
+namespace {
+
+/// Returns the largest distance of a value from the lattice's origin along an axis, in steps.
+double farthestPoint(const Extent& extent, const Lattice& lattice) {
+  double farthest = 0;
+  for (uint32_t c = 0; c < extent.component_count; ++c) {
+    for (const float value : {extent.min[c], extent.max[c]}) {
+      farthest = std::max(farthest, std::abs(latticePoint(value, lattice.origin[c], lattice.step)));
+    }
+  }
+  return farthest;
+}
+
+/// Counts the bits of the last point of a lattice. Returns false when they are too many.
+bool countBits(double last_point, uint8_t& bits) {
+  if (last_point >= std::ldexp(1.0, kMaxLatticeBits)) return false;
+  bits = static_cast<uint8_t>(std::bit_width(static_cast<uint64_t>(std::max(last_point, 1.0))));
+  return true;
+}
+
+}  // namespace
+
+float floatAt(const AttributePlan& attribute, uint64_t element, uint32_t component) {
+  float value = 0;
+  std::memcpy(&value,
+              attribute.source.data + element * attribute.source.stride_bytes + 4 * component, 4);
+  return value;
+}
+
+bool addTo(Extent& extent, const AttributePlan& attribute) {
+  return extent.add(attribute.source.count,
+                    [&](uint64_t i, uint32_t c) { return floatAt(attribute, i, c); });
+}
+
+bool fitError(const Extent& extent, double error, Lattice& lattice, uint8_t& bits) {
+  lattice = {};
+  std::copy_n(extent.min, extent.component_count, lattice.origin);
+  const double rounding = std::ldexp(1.02 * (extent.size() + 2 * extent.farthest()), -24);
+  const double per_component = error - rounding;
+  if (!(per_component > 0)) return false;
+  lattice.step = static_cast<float>(2 * per_component * (1 - 0x1p-20));
+  if (!std::isnormal(lattice.step)) return false;
+  return countBits(std::floor(extent.size() / double{lattice.step} + 0.5), bits);
+}
+
+bool fitAroundZero(const Extent& extent, float step, Lattice& lattice, uint8_t& bits) {
+  if (!std::isnormal(step)) return false;
+  lattice = {};
+  lattice.step = step;
+  return countBits(farthestPoint(extent, lattice), bits);
+}
+
+bool fitTangents(const Extent& extent, uint8_t bits, Lattice& lattice) {
+  std::fill_n(lattice.origin, extent.component_count, -1.0f);
+  lattice.step = std::ldexp(1.0f, 1 - int{bits});
+  return extent.isInside(-1.01f, 1.01f);
+}
+
+void useLattice(AttributePlan& attribute, const Lattice& lattice, uint8_t bits) {
+  attribute.bits = bits;
+  attribute.has_lattice = true;
+  attribute.lattice = lattice;
+}
+
+bool isFloat(const AttributePlan& attribute) {
+  return attribute.format.component_type == ComponentType::kFloat32;
+}
+
+bool isBasePosition(const AttributePlan& attribute) {
+  return attribute.format.semantic == Semantic::kPosition && attribute.target == kNone;
+}
+
+std::string whereIs(const PiecePlan& piece, const AttributePlan& attribute) {
+  return piece.parts[0].users[0].path() + ": " + attribute.label();
+}
+
+void PositionGroup::use(const Lattice& lattice, uint8_t bits, double max_distance) {
+  for (const PlannedAttribute& member : finite) {
+    useLattice(*member.attribute, lattice, bits);
+    member.attribute->max_distance = max_distance;
+  }
+}
+
+void visitPositionGroups(Grid grid, std::vector<PayloadPlan>& payloads,
+                         std::vector<std::string>& notes,
+                         const std::function<void(PositionGroup&)>& visit) {
+  std::vector<std::vector<PlannedAttribute>> all;
+  for (PayloadPlan& payload : payloads) {
+    if (grid != Grid::kScene || all.empty()) all.emplace_back();
+    for (PiecePlan& piece : payload.pieces) {
+      if (grid == Grid::kPrimitive) all.emplace_back();
+      for (AttributePlan& attribute : piece.attributes) {
+        if (isBasePosition(attribute) && isFloat(attribute))
+          all.back().push_back({&piece, &attribute});
+      }
+    }
+  }
+  for (const std::vector<PlannedAttribute>& members : all) {
+    PositionGroup group;
+    for (const PlannedAttribute& member : members) {
+      if (addTo(group.extent, *member.attribute)) {
+        group.finite.push_back(member);
+      } else {
+        notes.push_back(whereIs(*member.piece, *member.attribute) + kNotFinite);
+      }
+    }
+    if (!group.finite.empty()) visit(group);
+  }
+}
+
+void noteRoundedWeights(PiecePlan& piece) {
+  std::vector<AttributePlan*> sets;
+  for (AttributePlan& attribute : piece.attributes) {
+    if (attribute.format.semantic != Semantic::kWeights || attribute.target != kNone) continue;
+    if (!attribute.has_lattice || attribute.lattice != unitLattice(attribute.bits)) return;
+    sets.push_back(&attribute);
+  }
+  for (AttributePlan* set : sets) set->is_rounded_with_others = true;
+}
+
 namespace {
 
 class QuantizationPlanner {
@@ -40,61 +159,35 @@ class QuantizationPlanner {
                         [&](PositionGroup& group) { planPositionGroup(group, bits); });
   }
 
-  /// Adds a note about the first attribute of a group.
-  void noteAbout(const PositionGroup& group, const std::string& what) {
-    notes_.push_back(whereIs(*group.finite[0].piece, *group.finite[0].attribute) + what);
-  }
-
   void planPositionGroup(PositionGroup& group, uint8_t bits) {
-    Extent& extent = group.extent;
+    const Extent& extent = group.extent;
+    const auto stayExact = [&](const std::string& why) {
+      notes_.push_back(group.where() + why + "; it stays exact");
+    };
     Lattice lattice;
     if (given_) {
-      const double far = farthestPoint(extent, *given_);
-      if (far >= std::ldexp(1.0, kMaxLatticeBits)) {
-        noteAbout(group,
-                  " is more than 2^24 steps from the origin of the given lattice; it stays exact");
-        return;
-      }
-      const auto needed =
-          static_cast<uint8_t>(std::bit_width(static_cast<uint64_t>(std::max(far, 1.0))));
-      for (const PlannedAttribute& member : group.finite)
-        useLattice(*member.attribute, *given_, needed);
-      return;
+      if (!countBits(farthestPoint(extent, *given_), bits))
+        return stayExact(" is more than 2^24 steps from the origin of the given lattice");
+      return group.use(*given_, bits);
     }
     if (options_.max_position_error > 0) {
       const double distance =
           options_.max_position_error * (options_.is_error_relative ? extent.size() : 1);
-      uint8_t needed = 0;
-      if (!fitError(extent, distance / std::sqrt(3.0), lattice, needed)) {
-        noteAbout(group,
-                  " needs more than a lattice of 24 bits for the promised error; it stays exact");
-        return;
-      }
-      for (const PlannedAttribute& member : group.finite) {
-        useLattice(*member.attribute, lattice, needed);
-        member.attribute->max_distance = distance;
-      }
-      return;
+      if (!fitError(extent, distance / std::sqrt(3.0), lattice, bits))
+        return stayExact(" needs more than a lattice of 24 bits for the promised error");
+      return group.use(lattice, bits, distance);
     }
-    if (isRuinedByOutliers(extent, bits) || !fitLattice(extent, bits, lattice)) {
-      noteAbout(group, " has outliers for which a lattice of " + std::to_string(bits) +
-                           " bits would be too coarse for all other values; it stays exact");
-      return;
-    }
-    for (const PlannedAttribute& member : group.finite)
-      useLattice(*member.attribute, lattice, bits);
+    if (!fitWithin(group.extent, bits, lattice)) return stayExact(outliersText(bits));
+    group.use(lattice, bits);
   }
 
-  /// Returns the largest distance of a value from the lattice's origin along an axis, in steps.
-  static double farthestPoint(const Extent& extent, const Lattice& lattice) {
-    double farthest = 0;
-    for (uint32_t c = 0; c < extent.component_count; ++c) {
-      for (const float value : {extent.min[c], extent.max[c]}) {
-        farthest =
-            std::max(farthest, std::abs(latticePoint(value, lattice.origin[c], lattice.step)));
-      }
-    }
-    return farthest;
+  /// Fits a lattice of these bits, unless it would be too coarse for most of the values.
+  static bool fitWithin(Extent& extent, uint8_t bits, Lattice& lattice) {
+    return !isRuinedByOutliers(extent, bits) && fitLattice(extent, bits, lattice);
+  }
+  static std::string outliersText(uint8_t bits) {
+    return " has outliers for which a lattice of " + std::to_string(bits) +
+           " bits would be too coarse for all other values";
   }
 
   uint8_t bitsOf(Semantic semantic) const {
@@ -118,83 +211,42 @@ class QuantizationPlanner {
     if (follows_position && bits == 0) bits = piece.attributes[0].bits;
     if (!isFloat(attribute) || bits == 0 || isBasePosition(attribute)) return;
     Extent extent(attribute.format.component_count);
+    Lattice lattice;
+    std::string why;  // it stays exact
+    const Semantic semantic = attribute.format.semantic;
     if (!addTo(extent, attribute)) {
-      notes_.push_back(whereIs(piece, attribute) + " has NaN or infinite values and stays exact");
+      why = kNotFinite;
     } else if (attribute.target != kNone) {
-      planMorphDelta(piece, attribute, extent, bits);
-    } else if (attribute.format.semantic == Semantic::kNormal) {
-      planNormal(piece, attribute, extent, bits);
-    } else if (attribute.format.semantic == Semantic::kTangent) {
-      planTangent(piece, attribute, extent, bits);
-    } else {
-      planValues(piece, attribute, extent, bits);
+      if (!fitAroundZero(extent, stepOfDelta(piece, attribute, extent, bits), lattice, bits))
+        why = kTooManySteps;
+    } else if (semantic == Semantic::kNormal) {
+      // The codec has its own grid for unit vectors; the lattice is used for those of other
+      // lengths.
+      if (!fitLattice(extent, bits, lattice))
+        why = " has values no lattice can hold; it stays exact";
+    } else if (semantic == Semantic::kTangent) {
+      if (!fitTangents(extent, bits, lattice)) why = kNotUnit;
+    } else if (semantic != Semantic::kTexcoord && extent.isInside(0, 1)) {
+      lattice = unitLattice(bits);  // black stays black, and no weight of 0 grows
+    } else if (!fitWithin(extent, bits, lattice)) {
+      why = outliersText(bits) + "; it stays exact";
     }
-  }
-
-  void planValues(const PiecePlan& piece, AttributePlan& attribute, Extent& extent, uint8_t bits) {
-    const bool is_unit_range =
-        attribute.format.semantic != Semantic::kTexcoord && extent.isInside(0, 1);
-    Lattice lattice;
-    if (is_unit_range) {  // 0 and 1 are lattice points: black stays black, and no weight of 0 grows
-      useLattice(attribute, unitLattice(bits), bits);
-    } else if (isRuinedByOutliers(extent, bits) || !fitLattice(extent, bits, lattice)) {
-      notes_.push_back(whereIs(piece, attribute) + " has outliers for which a lattice of " +
-                       std::to_string(bits) +
-                       " bits would be too coarse for all other values; it stays exact");
-    } else {
-      useLattice(attribute, lattice, bits);
-    }
-  }
-
-  /// The codec has its own grid for unit vectors; the lattice is used for vectors of other lengths.
-  void planNormal(const PiecePlan& piece, AttributePlan& attribute, const Extent& extent,
-                  uint8_t bits) {
-    Lattice lattice;
-    if (fitLattice(extent, bits, lattice)) {
-      useLattice(attribute, lattice, bits);
-    } else {
-      notes_.push_back(whereIs(piece, attribute) +
-                       " has values no lattice can hold; it stays exact");
-    }
-  }
-
-  /// Uses a step that is a power of two, starting at -1, so that 0 and the signs in w do not
-  /// change.
-  void planTangent(const PiecePlan& piece, AttributePlan& attribute, const Extent& extent,
-                   uint8_t bits) {
-    if (!extent.isInside(-1.01f, 1.01f)) {
-      notes_.push_back(whereIs(piece, attribute) + " is not of unit length and stays exact");
-      return;
-    }
-    Lattice lattice;
-    std::fill_n(lattice.origin, attribute.format.component_count, -1.0f);
-    lattice.step = std::ldexp(1.0f, 1 - int{bits});
-    useLattice(attribute, lattice, bits);
+    if (why.empty()) return useLattice(attribute, lattice, bits);
+    notes_.push_back(whereIs(piece, attribute) + why);
   }
 
   /// Deltas of positions use the step of the positions, and those of unit vectors a step for the
   /// interval -1..1. All others use their own range.
-  void planMorphDelta(const PiecePlan& piece, AttributePlan& attribute, const Extent& extent,
-                      uint8_t bits) {
+  static float stepOfDelta(const PiecePlan& piece, const AttributePlan& attribute,
+                           const Extent& extent, uint8_t bits) {
     const double points = static_cast<double>((uint64_t{1} << bits) - 1);
-    float step = 0;
-    if (attribute.format.semantic == Semantic::kPosition) {
-      step = piece.attributes[0].has_lattice ? piece.attributes[0].lattice.step : 0;
-    } else if (attribute.format.semantic == Semantic::kNormal ||
-               attribute.format.semantic == Semantic::kTangent) {
-      step = static_cast<float>(2.0 / points);
-    }
-    if (step == 0) {
-      const double range = extent.size() == 0 ? extent.farthest() : extent.size();
-      step = static_cast<float>(range == 0 ? 1.0 : range / points);
-    }
-    Lattice lattice;
-    uint8_t needed_bits = 0;
-    if (fitAroundZero(extent, step, lattice, needed_bits)) {
-      useLattice(attribute, lattice, needed_bits);
-    } else {
-      notes_.push_back(whereIs(piece, attribute) + " spans too many steps and stays exact");
-    }
+    const Semantic semantic = attribute.format.semantic;
+    if (semantic == Semantic::kPosition && piece.attributes[0].has_lattice)
+      return piece.attributes[0].lattice.step;
+    if (semantic == Semantic::kNormal || semantic == Semantic::kTangent)
+      return static_cast<float>(2.0 / points);
+    const double range = extent.size() == 0 ? extent.farthest() : extent.size();
+    return static_cast<float>(range == 0 ? 1.0 : range / points);
   }
 
   const ConvertOptions& options_;

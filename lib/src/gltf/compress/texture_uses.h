@@ -6,11 +6,23 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "gltf/document/document.h"
 
 namespace mcc::gltf {
+
+/// Pixels of an image; 0: unknown.
+struct ImageSize {
+  uint32_t width = 0;
+  uint32_t height = 0;
+};
+
+/// Reads the size of a PNG, JPEG, WebP or KTX 2 image from its header. Unknown for other bytes, and
+/// for a JPEG with a thousand segments before its size. Safe for untrusted input; takes constant
+/// time.
+ImageSize imageSizeOf(std::span<const uint8_t> bytes);
 
 /// Textures of a document. Borrows it. Takes time proportional to its JSON and its data URIs.
 class TextureUses {

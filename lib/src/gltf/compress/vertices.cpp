@@ -9,7 +9,6 @@
 
 #include "gltf/compress/savings.h"
 #include "gltf/document/accessors.h"
-#include "gltf/document/known_extensions.h"
 
 namespace mcc::gltf {
 namespace {

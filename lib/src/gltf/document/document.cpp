@@ -7,7 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include "gltf/document/known_extensions.h"
 #include "gltf/document/package.h"
 #include "gltf/document/references.h"
 #include "gltf/document/uri.h"
@@ -111,24 +110,6 @@ Result fetchUri(const std::string& uri, const std::string& where, const FileRead
                  "the file \"" + path + "\" is needed; convert from a path, not from memory");
   }
   return read_file(path, where, bytes);
-}
-
-/// Returns a path that relativePathOf() has accepted without its parts "." and "..".
-std::string withoutDots(const std::string& path) {
-  std::vector<std::string> parts;
-  for (size_t begin = 0; begin <= path.size();) {
-    const size_t end = std::min(path.find('/', begin), path.size());
-    const std::string part = path.substr(begin, end - begin);
-    begin = end + 1;
-    if (part == ".." && !parts.empty()) {
-      parts.pop_back();
-    } else if (!part.empty() && part != ".") {
-      parts.push_back(part);
-    }
-  }
-  std::string joined;
-  for (const std::string& part : parts) joined += (joined.empty() ? "" : "/") + part;
-  return joined;
 }
 
 /// Loads the buffers. A file that several buffers name is read once.
@@ -479,7 +460,7 @@ class UseFinder {
   }
 
  private:
-  Accessor* accessorOf(const Json* number) {
+  Accessor* accessorOf(const Json& number) {
     uint64_t index = 0;
     const bool exists = asUnsigned(number, index) && index < document_.accessors.size();
     return exists ? &document_.accessors[index] : nullptr;
@@ -497,7 +478,7 @@ class UseFinder {
       ++ref.primitive;
     }
     visitMeshExtensionAccessors(mesh, [&](const Json& number) {
-      if (Accessor* accessor = accessorOf(&number)) ++accessor->extension_uses;
+      if (Accessor* accessor = accessorOf(number)) ++accessor->extension_uses;
     });
   }
 
@@ -508,7 +489,7 @@ class UseFinder {
     for (const Primitive::Attribute& attribute : primitive.attributes) add(attribute.accessor);
     add(primitive.indices);
     visitExtensionAccessors(*primitive.json, [&](const Json& number, ExtensionAccessor) {
-      if (Accessor* accessor = accessorOf(&number)) ++accessor->extension_uses;
+      if (Accessor* accessor = accessorOf(number)) ++accessor->extension_uses;
     });
     if (const Json* extension = extensionOf(*primitive.json, kExtensionName)) {
       visitFilledAccessors(*primitive.json, *extension, [&](uint64_t index) {
@@ -518,21 +499,11 @@ class UseFinder {
   }
 
   void addScene() {
-    const auto add = [&](const Json* number) {
+    const auto add = [&](const Json& number) {
       if (Accessor* accessor = accessorOf(number)) accessor->is_in_scene = true;
     };
-    for (const Json& skin : arrayOf(root_, "skins")) add(findMember(skin, "inverseBindMatrices"));
-    for (const Json& animation : arrayOf(root_, "animations")) {
-      for (const Json& sampler : arrayOf(animation, "samplers")) {
-        add(findMember(sampler, "input"));
-        add(findMember(sampler, "output"));
-      }
-    }
-    for (const Json& node : arrayOf(root_, "nodes")) {
-      const Json* map = findMember(extensionOf(node, "EXT_mesh_gpu_instancing"), "attributes");
-      if (map == nullptr || !map->is_object()) continue;
-      for (const Json& number : *map) add(&number);
-    }
+    for (const std::string_view path : kAnimationAccessors) visitPath(&root_, path, add);
+    visitPath(&root_, kInstanceAccessors, add);
   }
 
   void addViews() {

@@ -1,13 +1,53 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/document/extension_uses.h"
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 
 #include "gltf/document/accessors.h"
+#include "gltf/document/payload.h"
 #include "gltf/document/references.h"
 
 namespace mcc::gltf {
+
+namespace {
+
+/// Returns the code of a malformed payload.
+const char* payloadErrorName(Error error) {
+  switch (error) {
+    case Error::kTruncated: return "PAYLOAD_TRUNCATED";
+    case Error::kBadMagic: return "PAYLOAD_BAD_MAGIC";
+    case Error::kUnsupportedVersion: return "PAYLOAD_UNSUPPORTED_VERSION";
+    case Error::kBadChecksum: return "PAYLOAD_BAD_CHECKSUM";
+    case Error::kBadHeader: return "PAYLOAD_BAD_HEADER";
+    case Error::kBadConnectivity: return "PAYLOAD_BAD_CONNECTIVITY";
+    case Error::kBadStitch: return "PAYLOAD_BAD_STITCH";
+    case Error::kBadAttribute: return "PAYLOAD_BAD_ATTRIBUTE";
+    case Error::kTrailingBytes: return "PAYLOAD_TRAILING_BYTES";
+    case Error::kLimit: return "PAYLOAD_ABOVE_LIMIT";
+    default: return rule::kPayload.code;  // out of memory, which is not the file's fault
+  }
+}
+
+}  // namespace
+
+void Issues::addPayloadError(const Status& status, const std::string& where) {
+  add(Rule{payloadErrorName(status.error)}, toResult(status, where));
+}
+
+void Issues::append(const Issues& other) {
+  for (size_t i = 0; i < std::size(counts_); ++i) counts_[i] += other.counts_[i];
+  const size_t room = std::min(max_kept_ - kept_.size(), other.kept_.size());
+  kept_.insert(kept_.end(), other.kept_.begin(),
+               other.kept_.begin() + static_cast<std::ptrdiff_t>(room));
+}
+
+void Issues::add(const Rule& rule, Result what) {
+  ++counts_[static_cast<size_t>(rule.severity)];
+  if (kept_.size() < max_kept_) kept_.push_back({rule.severity, rule.code, std::move(what)});
+}
+
 namespace {
 
 constexpr uint64_t kMaxNumber = 0xffffffffu;
@@ -15,11 +55,11 @@ constexpr uint64_t kMaxNumber = 0xffffffffu;
 /// Reads the number of an accessor at `path`. Returns false and adds an issue when it does not
 /// exist.
 bool readAccessorNumber(const Document& document, const Json& number, const std::string& path,
-                        Rule rule, Issues& issues, uint32_t& accessor) {
+                        const Rule& rule, Issues& issues, uint32_t& accessor) {
   uint64_t index = 0;
   if (!issues.passes(rule, readUnsigned(number, path, kMaxNumber, index))) return false;
   if (index >= document.accessors.size()) {
-    issues.add(Rule::kReference, path, "there is no accessor " + std::to_string(index));
+    issues.add(rule::kReference, path, "there is no accessor " + std::to_string(index));
     return false;
   }
   accessor = static_cast<uint32_t>(index);
@@ -30,19 +70,19 @@ bool readAccessorNumber(const Document& document, const Json& number, const std:
 void readMap(const Document& document, const Json& ids, const std::string& path,
              const Json* accessors, const std::string& accessors_path, uint32_t target,
              Issues& issues, ExtensionUse& use) {
-  if (!ids.is_object()) return issues.add(Rule::kSchema, path, "must be an object");
+  if (!ids.is_object()) return issues.add(rule::kSchema, path, "must be an object");
   for (const auto& [name, id] : ids.items()) {
     ExtensionUse::AttributeUse attribute;
     attribute.name = name;
     attribute.target = target;
     attribute.path = at(path, name);
     const bool has_id =
-        issues.passes(Rule::kSchema, readUnsigned(id, attribute.path, kMaxNumber, attribute.id));
+        issues.passes(rule::kSchema, readUnsigned(id, attribute.path, kMaxNumber, attribute.id));
     const Json* number = findMember(accessors, name);
     if (number == nullptr) {
-      issues.add(Rule::kAttributeName, attribute.path,
+      issues.add(rule::kAttributeName, attribute.path,
                  "the primitive has no attribute of this name");
-    } else if (readAccessorNumber(document, *number, at(accessors_path, name), Rule::kReference,
+    } else if (readAccessorNumber(document, *number, at(accessors_path, name), rule::kReference,
                                   issues, attribute.accessor) &&
                has_id) {
       use.attributes.push_back(std::move(attribute));
@@ -56,11 +96,11 @@ void readTargets(const Document& document, const Json& extension, const Json& pr
   if (targets == nullptr) return;
   const std::string path = use.path + "/targets";
   if (!targets->is_array() || targets->empty()) {
-    return issues.add(Rule::kSchema, path, "must be an array that is not empty");
+    return issues.add(rule::kSchema, path, "must be an array that is not empty");
   }
   const Json& own = arrayOf(primitive, "targets");
   if (targets->size() != own.size()) {
-    issues.add(Rule::kTargetCount, path,
+    issues.add(rule::kTargetCount, path,
                "has " + std::to_string(targets->size()) + " targets, the primitive " +
                    std::to_string(own.size()));
   }
@@ -72,19 +112,19 @@ void readTargets(const Document& document, const Json& extension, const Json& pr
 
 void readView(const Document& document, const Json& object, Issues& issues, PartUse& use) {
   uint64_t number = 0;
-  if (!issues.passes(Rule::kSchema,
+  if (!issues.passes(rule::kSchema,
                      readUnsigned(object, "bufferView", use.path, kMaxNumber, number))) {
     return;
   }
   const std::string path = use.path + "/bufferView";
   if (number >= document.views.size()) {
-    return issues.add(Rule::kReference, path, "there is no bufferView " + std::to_string(number));
+    return issues.add(rule::kReference, path, "there is no bufferView " + std::to_string(number));
   }
   const BufferView& view = document.views[number];
-  if (!view.fault.ok()) return issues.add(Rule::kPayloadView, path, view.fault.message());
+  if (!view.fault.ok()) return issues.add(rule::kPayloadView, path, view.fault.message());
   if (view.isCoded()) {
     return issues.add(
-        Rule::kPayloadView, path,
+        rule::kPayloadView, path,
         "bufferView " + std::to_string(number) + " is coded with " + view.coding.extension);
   }
   use.view = static_cast<uint32_t>(number);
@@ -94,7 +134,7 @@ void readView(const Document& document, const Json& object, Issues& issues, Part
 void readPart(const Document& document, const Json& object, Issues& issues, PartUse& use) {
   readView(document, object, issues, use);
   const auto read = [&](const char* key, uint64_t& number) {
-    return issues.passes(Rule::kSchema,
+    return issues.passes(rule::kSchema,
                          readOptionalUnsigned(object, key, use.path, kMaxNumber, number));
   };
   const bool has_piece = read("piece", use.piece);
@@ -106,7 +146,7 @@ void readPreview(const Document& document, const Json& extension, Issues& issues
   const Json* preview = findMember(extension, "preview");
   if (preview == nullptr) return;
   const std::string path = use.path + "/preview";
-  if (!preview->is_object()) return issues.add(Rule::kSchema, path, "must be an object");
+  if (!preview->is_object()) return issues.add(rule::kSchema, path, "must be an object");
   use.preview.emplace().path = path;
   readPart(document, *preview, issues, *use.preview);
 }
@@ -115,24 +155,24 @@ void readExtension(const Document& document, const Json& extension, const Json& 
                    Issues& issues, ExtensionUse& use) {
   const std::string primitive_path = primitivePath(use.mesh, use.primitive);
   use.path = primitive_path + "/extensions/" + kExtensionName;
-  if (!extension.is_object()) return issues.add(Rule::kSchema, use.path, "must be an object");
+  if (!extension.is_object()) return issues.add(rule::kSchema, use.path, "must be an object");
   if (findMember(primitive["extensions"], kMeshExtension) != nullptr) {
-    issues.add(Rule::kTwoCompressions, use.path,
+    issues.add(rule::kTwoCompressions, use.path,
                std::string("the primitive is compressed with ") + kMeshExtension + ", too");
   }
   readPart(document, extension, issues, use);
   uint64_t mode = 4;
-  if (issues.passes(Rule::kMode,
+  if (issues.passes(rule::kMode,
                     readOptionalUnsigned(primitive, "mode", primitive_path, 6, mode)) &&
       mode != 4) {
-    issues.add(Rule::kMode, primitive_path + "/mode",
+    issues.add(rule::kMode, primitive_path + "/mode",
                "must be 4 (triangles) in a compressed primitive");
   }
   if (const Json* indices = findMember(primitive, "indices"); indices != nullptr) {
-    readAccessorNumber(document, *indices, primitive_path + "/indices", Rule::kIndices, issues,
+    readAccessorNumber(document, *indices, primitive_path + "/indices", rule::kIndices, issues,
                        use.indices_accessor);
   } else {
-    issues.add(Rule::kIndices, primitive_path, "\"indices\" is missing");
+    issues.add(rule::kIndices, primitive_path, "\"indices\" is missing");
   }
   if (const Json* ids = findMember(extension, "attributes"); ids != nullptr) {
     readMap(document, *ids, use.path + "/attributes", findMember(primitive, "attributes"),
@@ -142,18 +182,22 @@ void readExtension(const Document& document, const Json& extension, const Json& 
   readPreview(document, extension, issues, use);
 }
 
-/// Returns the attributes, or those of a morph target, that an extension object names. `extension`
-/// may be null.
-const Json* codedMap(const Json* extension, uint32_t target) {
-  if (extension == nullptr) return nullptr;
-  if (target == kNone) return findMember(*extension, "attributes");
-  const Json& targets = arrayOf(*extension, "targets");
-  return target < targets.size() ? &targets[target] : nullptr;
+/// Returns the JSON path of an attribute of a primitive.
+std::string pathOf(const Primitive& primitive, const Primitive::Attribute& attribute) {
+  const std::string path = primitive.ref.path();
+  return at(
+      attribute.target == kNone ? path + "/attributes" : at(path + "/targets", attribute.target),
+      std::string(attribute.name));
 }
 
-/// Returns the JSON path of the attributes or of a morph target of a primitive.
-std::string mapPath(const std::string& primitive_path, uint32_t target) {
-  return target == kNone ? primitive_path + "/attributes" : at(primitive_path + "/targets", target);
+/// Calls visit(const Primitive::Attribute&) for the attributes that no payload fills.
+template <typename Visit>
+void visitOrdinary(const Primitive& primitive, const Visit& visit) {
+  const Json* extension = extensionOf(*primitive.json, kExtensionName);
+  for (const Primitive::Attribute& attribute : primitive.attributes) {
+    if (findMember(attributesOf(extension, attribute.target), attribute.name) == nullptr)
+      visit(attribute);
+  }
 }
 
 /// Finds accessors that have two sources, or that something else refers to as well.
@@ -164,11 +208,15 @@ class Sharing {
   void check(const std::vector<ExtensionUse>& uses) {
     for (const ExtensionUse& use : uses) claimAll(use);
     for (const Primitive& primitive : document_.primitives) {
-      noteOrdinary(*primitive.json, primitive.ref.path());
+      const bool is_ours = extensionOf(*primitive.json, kExtensionName) != nullptr;
+      if (!is_ours) note(primitive.indices, primitive.ref.path() + "/indices");
+      visitOrdinary(primitive, [&](const Primitive::Attribute& attribute) {
+        note(attribute.accessor, pathOf(primitive, attribute));
+      });
     }
     for (const auto& [accessor, ignored] : origins_) {
       if (!document_.accessors[accessor].is_in_scene) continue;
-      issues_.add(Rule::kUsedElsewhere, at("/accessors", accessor),
+      issues_.add(rule::kUsedElsewhere, at("/accessors", accessor),
                   "is filled from a payload, but something outside of meshes refers to it, too");
     }
   }
@@ -181,7 +229,7 @@ class Sharing {
     if (accessor == kNone) return;
     const auto [found, is_new] = origins_.try_emplace(accessor, origin);
     if (is_new || found->second == origin) return;
-    issues_.add(Rule::kFilledTwice, path,
+    issues_.add(rule::kFilledTwice, path,
                 "accessor " + std::to_string(accessor) +
                     " is filled from two different places of the payloads");
   }
@@ -193,27 +241,11 @@ class Sharing {
     claim(use.indices_accessor, {use.view, use.piece, true, use.part}, use.path);
   }
 
-  /// Notes the accessors that a primitive refers to and no payload fills.
-  void noteOrdinary(const Json& primitive, const std::string& path) {
-    const Json* ours = extensionOf(primitive, kExtensionName);
-    const Json* indices = findMember(primitive, "indices");
-    if (indices != nullptr && ours == nullptr) note(*indices, path + "/indices");
-    visitAttributeMaps(primitive, [&](const Json& map, uint32_t target) {
-      const Json* coded = codedMap(ours, target);
-      for (const auto& [name, accessor] : map.items()) {
-        if (findMember(coded, name) == nullptr) note(accessor, at(mapPath(path, target), name));
-      }
-    });
-  }
-
-  void note(const Json& accessor, const std::string& path) {
-    uint64_t index = 0;
-    if (!asUnsigned(accessor, index) || index >= document_.accessors.size() ||
-        !origins_.contains(static_cast<uint32_t>(index))) {
-      return;
-    }
-    issues_.add(Rule::kUsedElsewhere, path,
-                "accessor " + std::to_string(index) +
+  /// Notes that something refers to an accessor which a payload fills. `accessor` may be kNone.
+  void note(uint32_t accessor, const std::string& path) {
+    if (!origins_.contains(accessor)) return;
+    issues_.add(rule::kUsedElsewhere, path,
+                "accessor " + std::to_string(accessor) +
                     " is filled from a payload; only what that payload fills may refer to it");
   }
 
@@ -225,7 +257,7 @@ class Sharing {
 /// Checks that a piece has an attribute. `path` is the place in the JSON that says so.
 bool hasAttribute(uint64_t id, const std::string& path, const PieceInfo& piece, Issues& issues) {
   if (id < piece.attributes.size()) return true;
-  issues.add(Rule::kAttributeNumber, path,
+  issues.add(rule::kAttributeNumber, path,
              "there is no attribute " + std::to_string(id) + " in the payload's piece, which has " +
                  std::to_string(piece.attributes.size()));
   return false;
@@ -237,29 +269,29 @@ void checkAttribute(const Document& document, const ExtensionUse::AttributeUse& 
   const Accessor& accessor = document.accessors[attribute.accessor];
   const std::string accessor_path = at("/accessors", attribute.accessor);
   if (accessor.count != piece.wedge_count) {
-    issues.add(Rule::kCount, accessor_path + "/count",
+    issues.add(rule::kCount, accessor_path + "/count",
                std::to_string(accessor.count) + " does not match the payload, which has " +
                    std::to_string(piece.wedge_count) + " vertices");
   }
   if (!accessor.is_known_type) {
-    return issues.add(Rule::kType, accessor_path,
+    return issues.add(rule::kType, accessor_path,
                       accessor.fault.ok() ? "the type is unknown" : accessor.fault.what);
   }
   if (attribute.name == "POSITION" && attribute.target == kNone && attribute.id != 0) {
-    return issues.add(Rule::kAttributeNumber, attribute.path,
+    return issues.add(rule::kAttributeNumber, attribute.path,
                       "must be attribute 0, which all others are predicted from");
   }
   const AttributeFormat& coded = piece.attributes[attribute.id].format;
   const AttributeFormat named = formatOf(attribute.name, attribute.target, accessor);
   if (coded.component_type != named.component_type ||
       coded.component_count != named.component_count || coded.normalized != named.normalized) {
-    return issues.add(Rule::kType, accessor_path,
+    return issues.add(rule::kType, accessor_path,
                       "its type is " + describeType(accessor) +
                           ", which is not that of attribute " + std::to_string(attribute.id) +
                           " in the payload");
   }
   if (coded != named) {
-    issues.add(Rule::kSemantic, attribute.path,
+    issues.add(rule::kSemantic, attribute.path,
                "attribute " + std::to_string(attribute.id) + " of the payload is not " +
                    attribute.name + (attribute.target == kNone ? "" : " of this morph target"));
   }
@@ -273,7 +305,7 @@ void checkIndices(const Document& document, const ExtensionUse& use, const Piece
   if (use.part < piece.parts.size()) {
     const uint64_t count = uint64_t{3} * piece.parts[use.part].triangle_count;
     if (accessor.count != count) {
-      issues.add(Rule::kCount, path + "/count",
+      issues.add(rule::kCount, path + "/count",
                  std::to_string(accessor.count) + " does not match the payload, which has " +
                      std::to_string(count) + " indices");
     }
@@ -283,14 +315,14 @@ void checkIndices(const Document& document, const ExtensionUse& use, const Piece
                            type == ComponentType::kUint32;
   if (!accessor.is_known_type || accessor.componentCount() != 1 || accessor.normalized ||
       !is_unsigned) {
-    return issues.add(Rule::kIndices, path, "indices must be SCALAR of an unsigned type");
+    return issues.add(rule::kIndices, path, "indices must be SCALAR of an unsigned type");
   }
   // The largest value of a type is not a valid index: it restarts strips.
   const bool fits = type == ComponentType::kUint32 ||
                     (type == ComponentType::kUint16 && piece.wedge_count <= 0xffff) ||
                     (type == ComponentType::kUint8 && piece.wedge_count <= 0xff);
   if (!fits) {
-    issues.add(Rule::kIndexRange, path + "/componentType",
+    issues.add(rule::kIndexRange, path + "/componentType",
                "cannot hold indices of " + std::to_string(piece.wedge_count) + " vertices");
   }
 }
@@ -299,32 +331,24 @@ void checkIndices(const Document& document, const ExtensionUse& use, const Piece
 /// morph targets. Accessors that the payload fills are checked where they are named.
 void checkOrdinaryAttributes(const Document& document, const ExtensionUse& use,
                              const PieceInfo& piece, Issues& issues) {
-  const Json& primitive = *use.json;
-  const Json* extension = extensionOf(primitive, kExtensionName);
-  const std::string path = primitivePath(use.mesh, use.primitive);
-  visitAttributeMaps(primitive, [&](const Json& map, uint32_t target) {
-    const Json* coded = codedMap(extension, target);
-    for (const auto& [name, value] : map.items()) {
-      uint64_t index = 0;
-      if (findMember(coded, name) != nullptr) continue;
-      if (asUnsigned(value, index) && index < document.accessors.size() &&
-          document.accessors[index].count == piece.wedge_count) {
-        continue;
-      }
-      issues.add(Rule::kCount, at(mapPath(path, target), name),
-                 "the accessor does not have the payload's " + std::to_string(piece.wedge_count) +
-                     " elements");
-    }
+  const Primitive& primitive = document.primitive({use.mesh, use.primitive});
+  visitOrdinary(primitive, [&](const Primitive::Attribute& attribute) {
+    const bool fits = attribute.accessor != kNone &&
+                      document.accessors[attribute.accessor].count == piece.wedge_count;
+    if (fits) return;
+    issues.add(rule::kCount, pathOf(primitive, attribute),
+               "the accessor does not have the payload's " + std::to_string(piece.wedge_count) +
+                   " elements");
   });
 }
 
 void checkPart(const PartUse& use, const PieceInfo& piece, Issues& issues) {
   if (use.part >= piece.parts.size()) {
-    issues.add(Rule::kPart, use.path + "/part",
+    issues.add(rule::kPart, use.path + "/part",
                "there is no part " + std::to_string(use.part) + " in the piece, which has " +
                    std::to_string(piece.parts.size()));
   } else if (piece.parts[use.part].triangle_count == 0) {
-    issues.add(Rule::kPart, use.path,
+    issues.add(rule::kPart, use.path,
                "part " + std::to_string(use.part) +
                    " of the piece has no triangles, so no primitive may name it");
   }
@@ -333,14 +357,14 @@ void checkPart(const PartUse& use, const PieceInfo& piece, Issues& issues) {
 /// Returns the piece of a use; null, with an issue, if there is none or it has no vertices.
 const PieceInfo* pieceOf(const PartUse& use, const PayloadInfo& info, Issues& issues) {
   if (use.piece >= info.pieces.size()) {
-    issues.add(Rule::kPiece, use.path + "/piece",
+    issues.add(rule::kPiece, use.path + "/piece",
                "there is no piece " + std::to_string(use.piece) + " in the payload, which has " +
                    std::to_string(info.pieces.size()));
     return nullptr;
   }
   const PieceInfo& piece = info.pieces[use.piece];
   if (piece.wedge_count != 0) return &piece;
-  issues.add(Rule::kPiece, use.path,
+  issues.add(rule::kPiece, use.path,
              "piece " + std::to_string(use.piece) +
                  " of the payload has no vertices, so no primitive may name it");
   return nullptr;
@@ -428,13 +452,6 @@ void checkAgainstPayload(const Document& document, const ExtensionUse& use, cons
   checkOrdinaryAttributes(document, use, *piece, issues);
 }
 
-Result checkAgainstPayload(const Document& document, const ExtensionUse& use,
-                           const PayloadInfo& info) {
-  Issues issues(1);
-  checkAgainstPayload(document, use, info, issues);
-  return issues.first();
-}
-
 void checkPreview(const Document& document, const ExtensionUse& use, const PayloadInfo& info,
                   Issues& issues) {
   const PartUse& preview = *use.preview;
@@ -447,7 +464,7 @@ void checkPreview(const Document& document, const ExtensionUse& use, const Paylo
     if (!accessor.is_known_type) continue;  // reported for the payload of the primitive
     const AttributeFormat named = formatOf(attribute.name, attribute.target, accessor);
     if (piece->attributes[attribute.id].format == named) continue;
-    issues.add(Rule::kSemantic, preview.path,
+    issues.add(rule::kSemantic, preview.path,
                "attribute " + std::to_string(attribute.id) + " of the preview is not " +
                    attribute.name + (attribute.target == kNone ? "" : " of this morph target") +
                    ", or has another type");

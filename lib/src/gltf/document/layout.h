@@ -1,5 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
+// Tells where the bytes of a document are and what they are for.
+//
 // Lays out the buffer of a document whose accessors changed, before any byte of it is written:
 // bytes that nothing refers to any more are left out, new buffer views are added, and everything
 // gets its place in one buffer, the BIN chunk of a GLB.
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include "gltf/document/document.h"
+#include "mcc/glb.h"
 
 namespace mcc::gltf {
 
@@ -31,6 +34,11 @@ ByteRange viewRange(const Document& document, uint64_t view);
 /// `whole_views`.
 std::vector<ByteRange> accessorRanges(const Document& document, uint32_t accessor,
                                       bool whole_views);
+
+/// Returns what the bytes of a loaded document are for. Bytes that several things use count once,
+/// for the first of geometry, images and animations. Takes time proportional to the JSON, up to a
+/// logarithm.
+Contents contentsOf(const Document& document);
 
 /// The number of the first new view while a document is edited. A file that names a view which does
 /// not exist does so by a smaller number.

@@ -6,7 +6,7 @@
 #include <set>
 #include <string_view>
 
-#include "gltf/document/known_extensions.h"
+#include "gltf/document/references.h"
 #include "gltf/document/uri.h"
 
 namespace mcc::gltf {
@@ -98,7 +98,8 @@ namespace {
 std::string glbText(const Json& json) {
   constexpr size_t kBytesBeforeBin = 28;  // a header of 12 bytes, and two of chunks
   std::string text = printJson(json);
-  if (!mayHaveTables(json) && !hasWideAccessors(json)) return text;
+  const bool has_tables = extensionOf(json, kMetadataExtension) != nullptr;
+  if (!has_tables && !hasWideAccessors(json)) return text;
   while ((kBytesBeforeBin + text.size()) % 8 != 0) text += ' ';
   return text;
 }

@@ -3,13 +3,242 @@
 
 #include <algorithm>
 #include <cctype>
-#include <type_traits>
+#include <initializer_list>
 
-#include "gltf/document/known_extensions.h"
 #include "mcc/glb.h"
 
 namespace mcc::gltf {
 namespace {
+
+// ---- What we know about extensions
+
+constexpr char kRestartExtension[] = "EXT_mesh_primitive_restart";
+
+using Names = std::initializer_list<std::string_view>;
+
+/// Whether an object has no members but these.
+bool hasOnly(const Json& object, const Names& names, const Names& others = {}) {
+  if (!object.is_object()) return false;
+  const auto isOneOf = [](const Names& known, const std::string& key) {
+    return std::find(known.begin(), known.end(), key) != known.end();
+  };
+  for (const auto& [key, value] : object.items()) {
+    if (!isOneOf(names, key) && !isOneOf(others, key)) return false;
+  }
+  return true;
+}
+
+/// The same, where any object may also have extras and extensions, which are looked at apart.
+bool hasOnlyWithExtras(const Json& object, const Names& names) {
+  return hasOnly(object, names, {"extras", "extensions"});
+}
+
+/// Whether these are groups of primitives that are named by numbers. Nothing else in their mesh
+/// depends on an order.
+bool areGroups(const Json& restart) {
+  if (!hasOnlyWithExtras(restart, {"primitiveGroups"})) return false;
+  const Json* groups = findMember(restart, "primitiveGroups");
+  if (groups == nullptr || !groups->is_array()) return false;
+  return std::all_of(groups->begin(), groups->end(), [](const Json& group) {
+    if (!hasOnlyWithExtras(group, {"primitives", "indices", "name"})) return false;
+    const Json* primitives = findMember(group, "primitives");
+    uint64_t number = 0;
+    return primitives != nullptr && primitives->is_array() &&
+           std::all_of(primitives->begin(), primitives->end(),
+                       [&](const Json& primitive) { return asUnsigned(primitive, number); });
+  });
+}
+
+/// Whether every set of feature ids is an attribute, which moves with its vertices, or a texture.
+/// Without either, the id of a vertex is its number.
+bool hasExplicitIds(const Json& features) {
+  if (!hasOnly(features, {"featureIds"})) return false;
+  const Json* sets = findMember(features, "featureIds");
+  if (sets == nullptr || !sets->is_array() || sets->empty()) return false;
+  return std::all_of(sets->begin(), sets->end(), [](const Json& set) {
+    return hasOnly(set, {"featureCount", "nullFeatureId", "label", "attribute", "texture",
+                         "propertyTable"}) &&
+           (findMember(set, "attribute") != nullptr || findMember(set, "texture") != nullptr);
+  });
+}
+
+/// Textures are found by texture coordinates, attributes by their names, rows by their numbers.
+bool hasOnlyMetadata(const Json& metadata) {
+  return hasOnly(metadata, {"propertyTextures", "propertyAttributes", "propertyTable", "index"});
+}
+
+bool always(const Json&) { return true; }
+bool never(const Json&) { return false; }
+
+/// An extension on our list: its objects hold no numbers of buffer views or accessors, except where
+/// the tables below and the functions of references.h look for them.
+struct KnownExtension {
+  std::string_view name;
+  /// Whether an object of meshes or primitives does not depend on the order of vertices and
+  /// triangles.
+  bool (*is_order_free)(const Json& object) = never;
+  bool names_nodes = false;  ///< because of their meshes
+};
+
+constexpr bool kNamesNodes = true;
+
+constexpr KnownExtension kKnownExtensions[] = {
+    {"ADOBE_materials_clearcoat_specular"},
+    {"ADOBE_materials_clearcoat_tint"},
+    {"ADOBE_materials_thin_transparency"},
+    {"BENTLEY_materials_line_style"},
+    {"BENTLEY_materials_planar_fill"},
+    {"BENTLEY_materials_point_style"},
+    {"CESIUM_RTC"},
+    {"CESIUM_primitive_outline"},
+    {"CESIUM_tile_edges"},
+    {"EXT_accessor_additional_types"},
+    {"EXT_instance_features"},
+    {"EXT_lights_image_based"},
+    {"EXT_mesh_features", hasExplicitIds},
+    {"EXT_mesh_gpu_instancing"},
+    {kManifoldExtension},
+    {"EXT_mesh_primitive_edge_visibility"},
+    {kRestartExtension, areGroups},
+    {"EXT_meshopt_compression"},
+    {kMetadataExtension, hasOnlyMetadata},
+    {"EXT_texture_avif"},
+    {"EXT_texture_webp"},
+    {"KHR_accessor_float16"},
+    {"KHR_accessor_float64"},
+    {"KHR_animation_pointer", never, kNamesNodes},
+    {"KHR_draco_mesh_compression", always},  // removed with the data that it describes
+    {"KHR_gaussian_splatting"},
+    {"KHR_lights_punctual"},
+    {"KHR_materials_variants", always},         // materials of the whole primitive
+    {"KHR_mesh_collapse_compression", always},  // our own
+    {"KHR_mesh_quantization"},
+    {"KHR_meshopt_compression"},
+    {"KHR_node_hoverability"},
+    {"KHR_node_selectability"},
+    {"KHR_node_visibility"},
+    {"KHR_texture_basisu"},
+    {"KHR_texture_transform"},
+    {"KHR_xmp", always},          // names a packet of metadata
+    {"KHR_xmp_json_ld", always},  // the same
+    {"MSFT_lod", never, kNamesNodes},
+    {"MSFT_packing_normalRoughnessMetallic"},
+    {"MSFT_packing_occlusionRoughnessMetallic"},
+    {"MSFT_texture_dds"},
+    {"VRM", never, kNamesNodes},
+    {"VRMC_materials_mtoon"},
+    {"VRMC_node_constraint", never, kNamesNodes},
+    {"VRMC_springBone", never, kNamesNodes},
+    {"VRMC_vrm", never, kNamesNodes},
+};
+
+/// The members of objects of extensions on our list, and of what is in them, where drafts of the
+/// same name, or others, may have numbers of accessors, buffer views or vertices.
+struct KnownMembers {
+  std::string_view extension;
+  std::string_view path;  ///< from the object of the extension on
+  Names names;
+};
+
+constexpr KnownMembers kKnownMembers[] = {
+    {"CESIUM_primitive_outline", "", {"indices"}},
+    {"CESIUM_tile_edges", "", {"left", "bottom", "right", "top"}},
+    {"EXT_instance_features", "", {"featureIds"}},
+    {"EXT_mesh_features", "", {"featureIds"}},
+    {kManifoldExtension, "", {"manifoldPrimitive", "mergeIndices", "mergeValues"}},
+    {kManifoldExtension, "manifoldPrimitive", {"attributes", "indices", "mode"}},
+    {"EXT_mesh_primitive_edge_visibility",
+     "",
+     {"visibility", "material", "lineStrings", "silhouetteMates", "silhouetteNormals"}},
+    {"EXT_mesh_primitive_edge_visibility", "lineStrings/[]", {"indices", "material"}},
+    {kMetadataExtension,
+     "",
+     {"schema", "schemaUri", "propertyTables", "propertyTextures", "propertyAttributes",
+      "propertyTable", "index"}},
+    {kMetadataExtension, "propertyTables/[]", {"name", "class", "count", "properties"}},
+    {kMetadataExtension,
+     "propertyTables/[]/properties/{}",
+     {"values", "arrayOffsets", "stringOffsets", "arrayOffsetType", "stringOffsetType", "offset",
+      "scale", "max", "min"}},
+    {"KHR_gaussian_splatting", "", {"kernel", "colorSpace", "projection", "sortingMethod"}},
+};
+
+/// A place in a primitive's extension that is the number of an accessor.
+struct AccessorMember {
+  std::string_view extension;
+  std::string_view path;
+  ExtensionAccessor what;
+};
+
+constexpr AccessorMember kAccessorMembers[] = {
+    {"CESIUM_primitive_outline", "indices", ExtensionAccessor::kVertexNumbers},
+    {"CESIUM_tile_edges", "left", ExtensionAccessor::kVertexNumbers},
+    {"CESIUM_tile_edges", "bottom", ExtensionAccessor::kVertexNumbers},
+    {"CESIUM_tile_edges", "right", ExtensionAccessor::kVertexNumbers},
+    {"CESIUM_tile_edges", "top", ExtensionAccessor::kVertexNumbers},
+    // Two bits for each edge of each triangle, and what belongs to these edges.
+    {"EXT_mesh_primitive_edge_visibility", "visibility", ExtensionAccessor::kOther},
+    {"EXT_mesh_primitive_edge_visibility", "silhouetteMates", ExtensionAccessor::kOther},
+    {"EXT_mesh_primitive_edge_visibility", "silhouetteNormals", ExtensionAccessor::kOther},
+    {"EXT_mesh_primitive_edge_visibility", "lineStrings/[]/indices", ExtensionAccessor::kOther},
+};
+
+/// The same in the extensions of a mesh.
+constexpr std::string_view kMeshExtensionAccessors[] = {
+    "extensions/EXT_mesh_primitive_restart/primitiveGroups/[]/indices",
+    "extensions/EXT_mesh_manifold/mergeIndices",
+    "extensions/EXT_mesh_manifold/mergeValues",
+    "extensions/EXT_mesh_manifold/manifoldPrimitive/indices",
+    "extensions/EXT_mesh_manifold/manifoldPrimitive/attributes/{}",
+};
+
+const KnownExtension* findKnown(std::string_view name) {
+  const auto found =
+      std::find_if(std::begin(kKnownExtensions), std::end(kKnownExtensions),
+                   [&](const KnownExtension& extension) { return extension.name == name; });
+  return found == std::end(kKnownExtensions) ? nullptr : found;
+}
+
+bool isKnownExtension(std::string_view name) {
+  return name.starts_with("KHR_materials_") || findKnown(name) != nullptr;
+}
+
+/// Whether an object of an extension has only the members that we know.
+bool isUnderstood(std::string_view name, const Json& object) {
+  if (name == kRestartExtension) return areGroups(object);
+  bool is_understood = isKnownExtension(name);
+  for (const KnownMembers& known : kKnownMembers) {
+    if (known.extension != name) continue;
+    const bool is_of_kind = visitPath(&object, known.path, [&](const Json& part) {
+      is_understood = is_understood && hasOnlyWithExtras(part, known.names);
+    });
+    is_understood = is_understood && is_of_kind;
+  }
+  return is_understood;
+}
+
+/// Whether an object of a mesh or primitive means the same in whatever order vertices and triangles
+/// are.
+bool isOrderFree(std::string_view name, const Json& object) {
+  const KnownExtension* known = findKnown(name);
+  return known != nullptr && known->is_order_free(object);
+}
+
+/// Whether an object of a primitive depends on the order only by the numbers of vertices in
+/// accessors.
+bool isRenumberable(std::string_view name, const Json& object) {
+  if (!object.is_object() || object.empty()) return false;
+  for (const auto& [key, value] : object.items()) {
+    const auto isRow = [&, &member = key](const AccessorMember& known) {
+      return known.extension == name && known.path == member &&
+             known.what == ExtensionAccessor::kVertexNumbers;
+    };
+    if (std::none_of(std::begin(kAccessorMembers), std::end(kAccessorMembers), isRow)) return false;
+  }
+  return true;
+}
+
+// ---- What we do not understand
 
 bool containsIgnoringCase(const std::string& text, std::string_view word) {
   const auto same = [](char a, char b) {
@@ -99,70 +328,18 @@ void walkKnown(const Json& json, ForeignReferences& foreign) {
   }
 }
 
-template <typename J, typename Visit>
-void visitMember(J* object, const char* key, uint32_t accessor, const Visit& visit) {
-  if (J* number = member(object, key); number != nullptr) visit(*number, accessor);
-}
+}  // namespace
 
-template <typename J, typename Visit>
-void visitViewReferencesOf(J& root, const Visit& visit) {
-  uint32_t number = 0;
-  visitElements(member(&root, "accessors"), [&](J& accessor) {
-    visitMember(&accessor, "bufferView", number, visit);
-    J* sparse = member(&accessor, "sparse");
-    visitMember(member(sparse, "indices"), "bufferView", number, visit);
-    visitMember(member(sparse, "values"), "bufferView", number, visit);
-    ++number;
-  });
-  visitElements(member(&root, "images"),
-                [&](J& image) { visitMember(&image, "bufferView", kNone, visit); });
-  visitElements(member(&root, "meshes"), [&](J& mesh) {
-    visitElements(member(&mesh, "primitives"), [&](J& primitive) {
-      J* extensions = member(&primitive, "extensions");
-      J* ours = member(extensions, kExtensionName);
-      visitMember(ours, "bufferView", kNone, visit);
-      visitMember(member(ours, "preview"), "bufferView", kNone, visit);
-      visitMember(member(extensions, kMeshExtension), "bufferView", kNone, visit);
-    });
-  });
-  if constexpr (std::is_const_v<J>) {
-    visitTableViews(root, [&](J& view) { visit(view, kNone); });
-  } else {
-    editTableViews(root, [&](J& view) { visit(view, kNone); });
+void visitExtensionAccessors(const Json& primitive,
+                             const std::function<void(const Json&, ExtensionAccessor)>& visit) {
+  for (const AccessorMember& known : kAccessorMembers) {
+    visitPath(extensionOf(primitive, known.extension), known.path,
+              [&](const Json& number) { visit(number, known.what); });
   }
 }
 
-}  // namespace
-
-namespace {
-
-/// Visits the numbers of accessors in the places that glTF 2.0 and EXT_mesh_gpu_instancing define.
-template <typename J, typename Visit>
-void visitAccessorReferencesOf(J& root, const Visit& visit) {
-  const auto visitAll = [&](J* map) {
-    if (map == nullptr || !map->is_object()) return;
-    for (J& number : *map) visit(number);
-  };
-  const auto visitKey = [&](J* object, const char* key) {
-    if (J* number = member(object, key)) visit(*number);
-  };
-  visitElements(member(&root, "meshes"), [&](J& mesh) {
-    visitElements(member(&mesh, "primitives"), [&](J& primitive) {
-      visitAll(member(&primitive, "attributes"));
-      visitElements(member(&primitive, "targets"), [&](J& target) { visitAll(&target); });
-      visitKey(&primitive, "indices");
-    });
-  });
-  visitElements(member(&root, "skins"), [&](J& skin) { visitKey(&skin, "inverseBindMatrices"); });
-  visitElements(member(&root, "animations"), [&](J& animation) {
-    visitElements(member(&animation, "samplers"), [&](J& sampler) {
-      visitKey(&sampler, "input");
-      visitKey(&sampler, "output");
-    });
-  });
-  visitElements(member(&root, "nodes"), [&](J& node) {
-    visitAll(member(member(member(&node, "extensions"), "EXT_mesh_gpu_instancing"), "attributes"));
-  });
+void visitMeshExtensionAccessors(const Json& mesh, const std::function<void(const Json&)>& visit) {
+  for (const std::string_view path : kMeshExtensionAccessors) visitPath(&mesh, path, visit);
 }
 
 bool isMissing(const Json& number, size_t accessor_count) {
@@ -170,20 +347,13 @@ bool isMissing(const Json& number, size_t accessor_count) {
   return asUnsigned(number, accessor) && accessor >= accessor_count;
 }
 
-}  // namespace
-
-void visitMissingAccessors(const Json& root, size_t accessor_count,
-                           const std::function<void(const Json& number)>& visit) {
-  visitAccessorReferencesOf(root, [&](const Json& number) {
-    if (isMissing(number, accessor_count)) visit(number);
-  });
-}
-
 void hideMissingAccessors(size_t accessor_count, Json& root) {
   bool is_any_missing = false;  // whoever looks for places to change makes a copy of them
-  visitMissingAccessors(root, accessor_count, [&](const Json&) { is_any_missing = true; });
+  visitAccessorReferences(std::as_const(root), [&](const Json& number) {
+    is_any_missing |= isMissing(number, accessor_count);
+  });
   if (!is_any_missing) return;
-  visitAccessorReferencesOf(root, [&](Json& number) {
+  visitAccessorReferences(root, [&](Json& number) {
     if (isMissing(number, accessor_count)) number = kNone;
   });
 }
@@ -200,7 +370,7 @@ bool hasWideAccessors(const Json& root) {
 ForeignReferences findForeignReferences(const Json& root) {
   ForeignReferences foreign;
   walkKnown(root, foreign);
-  foreign.has_tables = mayHaveTables(root);
+  foreign.has_tables = extensionOf(root, kMetadataExtension) != nullptr;
   foreign.has_wide_accessors = hasWideAccessors(root);
   for (const Json& name : arrayOf(root, "extensionsUsed")) {
     if (name.is_string() && !isKnownExtension(name.get<std::string>())) {
@@ -208,15 +378,6 @@ ForeignReferences findForeignReferences(const Json& root) {
     }
   }
   return foreign;
-}
-
-void visitViewReferences(const Json& root,
-                         const std::function<void(const Json&, uint32_t)>& visit) {
-  visitViewReferencesOf(root, visit);
-}
-
-void editViewReferences(Json& root, const std::function<void(Json&, uint32_t)>& visit) {
-  visitViewReferencesOf(root, visit);
 }
 
 std::string orderDependentPart(const Json& mesh_or_primitive, NumbersOfVertices numbers) {
@@ -264,9 +425,8 @@ void removeExtensionName(Json& root, const char* list, const char* name) {
 std::string nodeDependentExtension(const Json& root, const ForeignReferences& foreign) {
   if (!foreign.extension.empty()) return foreign.extension;
   for (const Json& name : arrayOf(root, "extensionsUsed")) {
-    if (name.is_string() && refersToNodes(name.text())) {
-      return name.get<std::string>();
-    }
+    const KnownExtension* known = name.is_string() ? findKnown(name.text()) : nullptr;
+    if (known != nullptr && known->names_nodes) return name.text();
   }
   return "";
 }

@@ -1,10 +1,11 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Finds out what refers to buffer views and accessors, in the document and in parts of it that we
-// do not understand.
+// Finds out what refers to buffer views and accessors, in the document, in the extensions of others
+// that we know, and in parts of it that we do not understand.
 #ifndef MCC_GLTF_DOCUMENT_REFERENCES_H_
 #define MCC_GLTF_DOCUMENT_REFERENCES_H_
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <set>
@@ -34,11 +35,24 @@ J* member(J* json, std::string_view key) {
   return found == json->end() ? nullptr : found;
 }
 
-/// Visits the elements of an array that may be null. Anything but an array has no elements.
+/// Calls visit(J&) for all that is at a path below `json`, which may be null:
+/// "meshes/[]/weights/[]", where [] stands for the elements of an array and {} for the members of
+/// an object. Returns whether all containers on the way are of these kinds; what is missing is of
+/// any.
 template <typename J, typename Visit>
-void visitElements(J* array, const Visit& visit) {
-  if (array == nullptr || !array->is_array()) return;
-  for (J& element : *array) visit(element);
+bool visitPath(J* json, std::string_view path, const Visit& visit) {
+  if (json == nullptr) return true;
+  if (path.empty()) {
+    visit(*json);
+    return true;
+  }
+  const std::string_view step = path.substr(0, path.find('/'));
+  path.remove_prefix(std::min(path.size(), step.size() + 1));
+  if (step != "[]" && step != "{}") return visitPath(member(json, step), path, visit);
+  if (step == "[]" ? !json->is_array() : !json->is_object()) return false;
+  bool is_of_kind = true;
+  for (J& value : *json) is_of_kind &= visitPath(&value, path, visit);
+  return is_of_kind;
 }
 
 /// Returns an extension of an object, or null.
@@ -61,17 +75,13 @@ void visitPrimitives(const Json& root, const Visit& visit) {
   }
 }
 
-/// Calls visit(const Json& map, uint32_t target) for `attributes`, whose target is kNone, and for
-/// each of `targets`.
-template <typename Visit>
-void visitAttributeMaps(const Json& primitive, const Visit& visit) {
-  const Json* attributes = findMember(primitive, "attributes");
-  if (attributes != nullptr && attributes->is_object()) visit(*attributes, kNone);
-  uint32_t target = 0;
-  for (const Json& map : arrayOf(primitive, "targets")) {
-    if (map.is_object()) visit(map, target);
-    ++target;
-  }
+/// Returns the attributes, or those of a morph target, that an object names: a primitive, or our
+/// extension object, which may be null.
+inline const Json* attributesOf(const Json* object, uint32_t target) {
+  if (object == nullptr) return nullptr;
+  if (target == kNone) return findMember(*object, "attributes");
+  const Json& targets = arrayOf(*object, "targets");
+  return target < targets.size() ? &targets[target] : nullptr;
 }
 
 /// Calls visit(uint64_t accessor) for the accessors that the payload of a compressed primitive
@@ -80,17 +90,45 @@ template <typename Visit>
 void visitFilledAccessors(const Json& primitive, const Json& extension, const Visit& visit) {
   uint64_t accessor = 0;
   if (asUnsigned(findMember(primitive, "indices"), accessor)) visit(accessor);
-  const Json* attribute_ids = findMember(extension, "attributes");
-  const Json& target_ids = arrayOf(extension, "targets");
-  visitAttributeMaps(primitive, [&](const Json& map, uint32_t target) {
-    const Json* ids = attribute_ids;
-    if (target != kNone) ids = target < target_ids.size() ? &target_ids[target] : nullptr;
-    if (ids == nullptr || !ids->is_object()) return;
+  const auto visitMap = [&](uint32_t target) {
+    const Json* ids = attributesOf(&extension, target);
+    if (ids == nullptr) return;
     for (const auto& [name, id] : ids->items()) {
-      if (asUnsigned(findMember(map, name), accessor)) visit(accessor);
+      if (asUnsigned(findMember(attributesOf(&primitive, target), name), accessor)) visit(accessor);
     }
-  });
+  };
+  visitMap(kNone);
+  for (uint32_t i = 0; i < arrayOf(extension, "targets").size(); ++i) visitMap(i);
 }
+
+/// The extension whose property tables lie in buffer views.
+inline constexpr char kMetadataExtension[] = "EXT_structural_metadata";
+/// Describes all primitives of its mesh once more, as one list of triangles over the same bytes.
+inline constexpr char kManifoldExtension[] = "EXT_mesh_manifold";
+/// Where a mesh names primitives that EXT_mesh_primitive_restart draws together with others. They
+/// share the bytes of their indices with their group.
+inline constexpr char kGroupedPrimitives[] =
+    "extensions/EXT_mesh_primitive_restart/primitiveGroups/[]/primitives/[]";
+
+/// Extensions that code the elements of buffer views.
+inline constexpr const char* kViewExtensions[] = {"EXT_meshopt_compression",
+                                                  "KHR_meshopt_compression"};
+/// The other extension that codes primitives.
+inline constexpr char kMeshExtension[] = "KHR_draco_mesh_compression";
+
+/// What an accessor that an extension of a primitive names is made of.
+enum class ExtensionAccessor : uint8_t {
+  kVertexNumbers,  ///< nothing but numbers of vertices of the primitive
+  kOther,
+};
+
+/// Calls visit(number, what) for each accessor number in the extensions of a primitive.
+void visitExtensionAccessors(
+    const Json& primitive,
+    const std::function<void(const Json& number, ExtensionAccessor what)>& visit);
+/// Calls visit(number) for each accessor number in the extensions of a mesh itself.
+void visitMeshExtensionAccessors(const Json& mesh,
+                                 const std::function<void(const Json& number)>& visit);
 
 /// Whether accessors hold numbers of 64 bits: component types 5130, 5134 and 5135 of glTF 2.1.
 bool hasWideAccessors(const Json& root);
@@ -115,22 +153,59 @@ struct ForeignReferences {
 
 ForeignReferences findForeignReferences(const Json& root);
 
-/// Calls `visit` with every number of an accessor that does not exist, in the places that glTF 2.0
-/// and EXT_mesh_gpu_instancing define.
-void visitMissingAccessors(const Json& root, size_t accessor_count,
-                           const std::function<void(const Json& number)>& visit);
-/// Changes these numbers to one that never will exist.
+/// Where glTF 2.0 and EXT_mesh_gpu_instancing name accessors: in meshes, and elsewhere.
+inline constexpr std::string_view kMeshAccessors[] = {"meshes/[]/primitives/[]/attributes/{}",
+                                                      "meshes/[]/primitives/[]/targets/[]/{}",
+                                                      "meshes/[]/primitives/[]/indices"};
+inline constexpr std::string_view kAnimationAccessors[] = {"skins/[]/inverseBindMatrices",
+                                                           "animations/[]/samplers/[]/input",
+                                                           "animations/[]/samplers/[]/output"};
+inline constexpr std::string_view kInstanceAccessors =
+    "nodes/[]/extensions/EXT_mesh_gpu_instancing/attributes/{}";
+
+/// Calls visit(J& number) for every number of an accessor in these places. `J` is Json, of which a
+/// visitor may change the numbers, or const Json.
+template <typename J, typename Visit>
+void visitAccessorReferences(J& root, const Visit& visit) {
+  for (const std::string_view path : kMeshAccessors) visitPath(&root, path, visit);
+  for (const std::string_view path : kAnimationAccessors) visitPath(&root, path, visit);
+  visitPath(&root, kInstanceAccessors, visit);
+}
+
+/// Whether a reference names none of the accessors.
+bool isMissing(const Json& number, size_t accessor_count);
+/// Changes the numbers of accessors that do not exist to one that never will.
 void hideMissingAccessors(size_t accessor_count, Json& root);
 
-/// Calls `visit` with every number of a buffer view in the places that glTF 2.0 and the extensions
-/// on our list define. `accessor` is the accessor that the reference belongs to, or kNone.
-void visitViewReferences(const Json& root,
-                         const std::function<void(const Json& number, uint32_t accessor)>& visit);
-/// The same for a visitor that changes the numbers.
-void editViewReferences(Json& root,
-                        const std::function<void(Json& number, uint32_t accessor)>& visit);
+/// Where property tables name buffer views.
+inline constexpr std::string_view kTableViews[] = {
+    "extensions/EXT_structural_metadata/propertyTables/[]/properties/{}/values",
+    "extensions/EXT_structural_metadata/propertyTables/[]/properties/{}/arrayOffsets",
+    "extensions/EXT_structural_metadata/propertyTables/[]/properties/{}/stringOffsets"};
+/// Where the rest of a document does, apart from accessors.
+inline constexpr std::string_view kOtherViews[] = {
+    "images/[]/bufferView",
+    "meshes/[]/primitives/[]/extensions/KHR_mesh_collapse_compression/bufferView",
+    "meshes/[]/primitives/[]/extensions/KHR_mesh_collapse_compression/preview/bufferView",
+    "meshes/[]/primitives/[]/extensions/KHR_draco_mesh_compression/bufferView"};
 
-/// Whether accessors that hold numbers of vertices can get others, see isRenumberable().
+/// Calls visit(J& number, uint32_t accessor) for every number of a buffer view in the places that
+/// glTF 2.0 and the extensions on our list define. `accessor` is the accessor that the reference
+/// belongs to, or kNone.
+template <typename J, typename Visit>
+void visitViewReferences(J& root, const Visit& visit) {
+  uint32_t index = 0;
+  visitPath(&root, "accessors/[]", [&](J& accessor) {
+    for (const char* path : {"bufferView", "sparse/indices/bufferView", "sparse/values/bufferView"})
+      visitPath(&accessor, path, [&](J& number) { visit(number, index); });
+    ++index;
+  });
+  const auto visitOther = [&](J& number) { visit(number, uint32_t{kNone}); };
+  for (const std::string_view path : kOtherViews) visitPath(&root, path, visitOther);
+  for (const std::string_view path : kTableViews) visitPath(&root, path, visitOther);
+}
+
+/// Whether accessors that hold numbers of vertices can get others.
 enum class NumbersOfVertices : uint8_t { kStay, kCanChange };
 
 /// Returns the part of a mesh or primitive that depends on the order of vertices or triangles, as
@@ -144,12 +219,6 @@ std::string unknownExtension(const Json& object);
 /// Returns the first extension of the document that may refer to nodes and expect their meshes
 /// there, or an empty string.
 std::string nodeDependentExtension(const Json& root, const ForeignReferences& foreign);
-
-/// Extensions that code the elements of buffer views.
-inline constexpr const char* kViewExtensions[] = {"EXT_meshopt_compression",
-                                                  "KHR_meshopt_compression"};
-/// The other extension that codes primitives.
-inline constexpr char kMeshExtension[] = "KHR_draco_mesh_compression";
 
 /// Adds a name to a list of extensions, or removes it. A list that becomes empty is removed.
 void addExtensionName(Json& root, const char* list, const char* name);

@@ -83,22 +83,28 @@ bool hasControlCharacter(const std::string& text) {
   return false;
 }
 
+/// Whether all parts of a path between its '/' pass.
+template <typename Passes>
+bool allParts(std::string_view path, const Passes& passes) {
+  for (size_t begin = 0; begin <= path.size();) {
+    const size_t end = std::min(path.find('/', begin), path.size());
+    if (!passes(path.substr(begin, end - begin))) return false;
+    begin = end + 1;
+  }
+  return true;
+}
+
 /// Whether following the path leaves its starting folder at any point.
 bool climbsOut(const std::string& path) {
   int depth = 0;
-  size_t begin = 0;
-  while (begin <= path.size()) {
-    const size_t end = std::min(path.find('/', begin), path.size());
-    const std::string name = path.substr(begin, end - begin);
-    if (name == "..") {
+  return !allParts(path, [&](std::string_view part) {
+    if (part == "..") {
       --depth;
-    } else if (!name.empty() && name != ".") {
+    } else if (!part.empty() && part != ".") {
       ++depth;
     }
-    if (depth < 0) return true;
-    begin = end + 1;
-  }
-  return false;
+    return depth >= 0;
+  });
 }
 
 /// Whether Windows takes a name for a device: the part before the first dot decides.
@@ -170,27 +176,34 @@ Result relativePathOf(const std::string& uri, const std::string& where, std::str
   return {};
 }
 
+std::string withoutDots(const std::string& path) {
+  std::vector<std::string_view> parts;
+  allParts(path, [&](std::string_view part) {
+    if (part == ".." && !parts.empty()) {
+      parts.pop_back();
+    } else if (!part.empty() && part != ".") {
+      parts.push_back(part);
+    }
+    return true;
+  });
+  std::string joined;
+  for (const std::string_view part : parts) joined.append(joined.empty() ? "" : "/").append(part);
+  return joined;
+}
+
 bool isVisiblePath(const std::string& path) {
-  for (size_t begin = 0; begin < path.size();) {
-    const size_t end = std::min(path.find('/', begin), path.size());
-    const std::string_view part = std::string_view(path).substr(begin, end - begin);
-    if (part.starts_with('.') && part != "." && part != "..") return false;
-    begin = end + 1;
-  }
-  return true;
+  return allParts(path, [](std::string_view part) {
+    return !part.starts_with('.') || part == "." || part == "..";
+  });
 }
 
 bool isPathOnWindows(const std::string& path) {
   if (!isUtf8(path)) return false;  // names are made of characters there
-  for (size_t begin = 0; begin < path.size();) {
-    const size_t end = std::min(path.find('/', begin), path.size());
-    const std::string_view part = std::string_view(path).substr(begin, end - begin);
-    begin = end + 1;
-    if (part.empty() || part == "." || part == "..") continue;
+  return allParts(path, [](std::string_view part) {
+    if (part.empty() || part == "." || part == "..") return true;
     if (part.ends_with('.') || part.ends_with(' ') || isDeviceOnWindows(part)) return false;
-    if (part.find_first_of("<>:\"|?*\\") != std::string_view::npos) return false;
-  }
-  return true;
+    return part.find_first_of("<>:\"|?*\\") == std::string_view::npos;
+  });
 }
 
 std::string uriOf(const std::string& name) {

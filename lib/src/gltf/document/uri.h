@@ -21,6 +21,9 @@ Result decodeDataUri(const std::string& uri, const std::string& where, std::vect
 /// the test.
 Result relativePathOf(const std::string& uri, const std::string& where, std::string& path);
 
+/// Returns a path that relativePathOf() has accepted without its parts "." and "..".
+std::string withoutDots(const std::string& path);
+
 /// Whether no part of a relative path begins with a dot, as the names of hidden files and folders
 /// do.
 bool isVisiblePath(const std::string& path);

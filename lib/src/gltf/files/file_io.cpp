@@ -8,6 +8,7 @@
 #include <optional>
 #include <system_error>
 
+#include "gltf/document/uri.h"
 #include "host/system.h"
 #include "host/text.h"
 
@@ -74,21 +75,32 @@ std::string keyOf(const FileIdentity& file) {
   return std::to_string(file.device) + ":" + std::to_string(file.number);
 }
 
+/// Returns the number of bytes that were read; 0 at the end, and when it cannot be read.
+size_t readSome(int file, void* to, size_t byte_count) {
+  ptrdiff_t count = 0;
+  do {
+    count = system::readSome(file, to, byte_count);
+  } while (count < 0 && errno == EINTR);
+  return count > 0 ? static_cast<size_t>(count) : 0;
+}
+
+/// Reads a regular file of this size. `name` is used in messages.
+Result readWhole(int file, uint64_t size, const std::string& name, std::vector<uint8_t>& bytes) {
+  if (size > kMaxFileBytes) return tooLarge(name, kMaxFileBytes);
+  bytes.resize(size);
+  for (size_t done = 0; done < size;) {
+    const size_t count = readSome(file, bytes.data() + done, size - done);
+    if (count == 0) return error(name, "cannot be read to its end");
+    done += count;
+  }
+  return {};
+}
+
 Result readRegularFile(int file, const fs::path& path, std::vector<uint8_t>& bytes) {
   std::error_code code;
   const uintmax_t size = fs::file_size(path, code);
   if (code) return error(textOf(path), "cannot be read: " + code.message());
-  if (size > kMaxFileBytes) return tooLarge(textOf(path), kMaxFileBytes);
-  bytes.resize(size);
-  size_t done = 0;
-  while (done < size) {
-    const ptrdiff_t count = system::readSome(file, bytes.data() + done, size - done);
-    if (count == 0 || (count < 0 && errno != EINTR)) {
-      return error(textOf(path), "cannot be read to its end");
-    }
-    done += count > 0 ? static_cast<size_t>(count) : 0;
-  }
-  return {};
+  return readWhole(file, size, textOf(path), bytes);
 }
 
 }  // namespace
@@ -129,6 +141,71 @@ Result readFile(const fs::path& path, std::vector<uint8_t>& bytes) {
                                               : readStream(file, textOf(path), bytes);
   system::close(file);
   return result;
+}
+
+namespace {
+
+fs::path orHere(const fs::path& folder) { return folder.empty() ? fs::path(".") : folder; }
+
+/// Follows all links, and returns where the file is in the folder that must contain it.
+Result resolve(const fs::path& file, const fs::path& within, fs::path& base, fs::path& relative) {
+  std::error_code code;
+  base = fs::canonical(orHere(within), code);
+  const fs::path real = code ? fs::path() : fs::canonical(file, code);
+  if (code == std::errc::no_such_file_or_directory || code == std::errc::not_a_directory) {
+    return error("", "there is no such file");
+  }
+  if (code) return error("", "cannot be opened: " + code.message());
+  relative = real.lexically_relative(base);
+  if (relative.empty() || *relative.begin() == "..") {
+    return error("",
+                 "is a symbolic link out of the folder of the input; put a copy of the file there");
+  }
+  const fs::file_status status = fs::status(real, code);
+  if (fs::is_directory(status)) return error("", "is a folder; name a file in it");
+  return fs::is_regular_file(status) ? Result{} : error("", "is not a regular file");
+}
+
+}  // namespace
+
+NamedFile::~NamedFile() {
+  if (file_ >= 0) system::close(file_);
+}
+
+Result NamedFile::open(const fs::path& folder, const std::string& name, const fs::path& within) {
+  if (kIsWindows && !isPathOnWindows(name)) {
+    return error("", "cannot be the name of a file on Windows; rename the file");
+  }
+  fs::path base;
+  fs::path relative;
+  MCC_GLTF_TRY(resolve(folder / pathOf(name), within.empty() ? folder : within, base, relative));
+  file_ = system::openInside(base, relative);
+  if (file_ < 0) return error("", std::string("cannot be opened: ") + std::strerror(errno));
+  const std::optional<uint64_t> size = system::sizeOfRegular(file_);
+  if (!size) return error("", "is not a regular file");
+  size_ = *size;
+  return {};
+}
+
+size_t NamedFile::readSome(void* to, size_t byte_count) {
+  return gltf::readSome(file_, to, byte_count);
+}
+
+Result NamedFile::read(std::vector<uint8_t>& bytes) { return readWhole(file_, size_, "", bytes); }
+
+Result readNamed(const fs::path& folder, const std::string& name, std::vector<uint8_t>& bytes,
+                 const fs::path& within) {
+  NamedFile file;
+  MCC_GLTF_TRY(file.open(folder, name, within));
+  return file.read(bytes);
+}
+
+FileReader readerOf(const fs::path& folder, const fs::path& within) {
+  return [folder, within](const std::string& name, const std::string& where,
+                          std::vector<uint8_t>& bytes) {
+    const Result read = readNamed(folder, name, bytes, within);
+    return read.ok() ? read : error(where, "\"" + name + "\": " + read.what);
+  };
 }
 
 bool isStream(const fs::path& path) {

@@ -5,11 +5,11 @@
 #include <numbers>
 
 #include "format/methods.h"
-#include "gltf/check/values.h"
+#include "gltf/check/prove.h"
+#include "gltf/compress/quality.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/payload.h"
 #include "gltf/files/file_io.h"
-#include "gltf/files/named_file.h"
 #include "gltf/inspect/report_json.h"
 #include "host/parallel.h"
 #include "mcc/files.h"

@@ -1,17 +1,27 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Reports as JSON.
+// Builds the report of a conversion, and prints reports as JSON.
 #ifndef MCC_GLTF_INSPECT_REPORT_JSON_H_
 #define MCC_GLTF_INSPECT_REPORT_JSON_H_
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "format/methods.h"
+#include "gltf/check/prove.h"
+#include "gltf/compress/compress.h"
 #include "json/json.h"
 #include "mcc/glb.h"
 
 namespace mcc::gltf {
+
+/// Lists all primitives of the document, and adds notes on those that were left alone.
+void addPrimitives(const Document& document, const Compressed& compressed, ConvertReport& report);
+
+/// Adds the payloads with what was measured on them.
+void addPayloads(const std::vector<EncodedPayload>& payloads,
+                 const std::vector<PayloadProof>& proofs, ConvertReport& report);
 
 /// Returns the options that the bytes of the output depend on.
 Json optionsJson(const ConvertOptions& options);
