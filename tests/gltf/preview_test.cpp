@@ -8,8 +8,8 @@
 
 #include "gltf/check/check.h"
 #include "gltf/check/prove.h"
+#include "gltf/decompress/decompress.h"
 #include "gltf/document/extension_uses.h"
-#include "gltf/document/payload.h"
 #include "gltf/round_trip.h"
 
 namespace mcc::gltf::test {

@@ -8,7 +8,6 @@
 #include <fstream>
 
 #include "gltf/decompress/decompress.h"
-#include "gltf/document/payload.h"
 #include "gltf/round_trip.h"
 #include "mcc/files.h"
 #include "support/scratch_folder.h"

@@ -9,8 +9,8 @@
 
 #include "format/predictors.h"
 #include "gltf/compress/plan.h"
+#include "gltf/decompress/decompress.h"
 #include "gltf/document/accessors.h"
-#include "gltf/document/payload.h"
 #include "support/mesh_compare.h"
 #include "support/sha256.h"
 

@@ -9,7 +9,7 @@
 #include "container/payload_header.h"
 #include "format/codings.h"
 #include "format/predictors.h"
-#include "gltf/document/payload.h"
+#include "gltf/decompress/decompress.h"
 
 namespace mcc::conformance {
 namespace {

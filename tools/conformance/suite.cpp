@@ -12,7 +12,7 @@
 #include "container/payload_header.h"
 #include "format_features.h"
 #include "found.h"
-#include "gltf/document/payload.h"
+#include "gltf/decompress/decompress.h"
 #include "header_fields.h"
 #include "mcc/glb.h"
 #include "negatives.h"

@@ -6,7 +6,6 @@
 #include "gltf/decompress/coded_input.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/accessors.h"
-#include "gltf/document/payload.h"
 #include "gltf/files/file_io.h"
 #include "host/parallel.h"
 #include "mcc/writer.h"

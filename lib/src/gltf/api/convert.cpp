@@ -429,43 +429,38 @@ Status checkOptions(const ConvertOptions& options) {
       return fail(Error::kBadArgument, "the bits of normals and tangents are 0, or 2 to 16");
     }
   }
-  if (options.grid > Grid::kPrimitive)
-    return fail(Error::kBadArgument, "grid is not one of the grids");
-  if (options.prefer > Preference::kSpeed)
-    return fail(Error::kBadArgument, "prefer is not one of the preferences");
-  if (!(options.max_position_error >= 0) || !std::isfinite(options.max_position_error))
-    return fail(Error::kBadArgument, "max_position_error is negative or not a finite number");
-  if (options.position_lattice && !isValidLattice(*options.position_lattice, 3)) {
-    return fail(Error::kBadArgument,
-                "the lattice of positions needs finite numbers, and a step that is greater than 0");
-  }
-  if (options.step != 0 && !isStep(options.step))
-    return fail(Error::kBadArgument, "step is not a power of two from 2^-126 to 2^127");
-  if (options.step != 0 &&
-      (options.lossless || options.max_position_error > 0 || options.position_lattice)) {
-    return fail(Error::kBadArgument,
-                "step excludes lossless, max_position_error and position_lattice");
-  }
-  if (options.quality != 0 &&
-      !(options.quality >= kLeastPixels && options.quality <= kMostPixels)) {
-    return fail(Error::kBadArgument, "quality is not from 16 to 1048576 pixels");
-  }
-  if (options.quality != 0 && (options.lossless || options.max_position_error > 0 ||
-                               options.position_lattice || options.step != 0)) {
-    return fail(Error::kBadArgument,
-                "quality excludes lossless, max_position_error, position_lattice and step");
-  }
-  if (options.indices_only && options.drop_unused) {
-    return fail(Error::kBadArgument,
-                "attributes that are not compressed keep all their vertices: unused ones can be "
-                "dropped only without indices_only");
-  }
-  if (options.preview_triangles != kNoPreviews && options.indices_only) {
-    return fail(Error::kBadArgument,
-                "a preview holds attributes, too: it can be made only without indices_only");
-  }
-  if (options.preview_triangles != kNoPreviews && !options.simplify) {
-    return fail(Error::kBadArgument, "previews need a function that simplifies: `simplify`");
+  const bool has_error = options.max_position_error > 0;
+  const bool has_lattice = options.position_lattice.has_value();
+  const bool has_previews = options.preview_triangles != kNoPreviews;
+  const bool is_precise = options.lossless || has_error || has_lattice;
+  const struct {
+    bool is_refused;
+    const char* why;
+  } rules[] = {
+      {options.grid > Grid::kPrimitive, "grid is not one of the grids"},
+      {options.prefer > Preference::kSpeed, "prefer is not one of the preferences"},
+      {!(options.max_position_error >= 0) || !std::isfinite(options.max_position_error),
+       "max_position_error is negative or not a finite number"},
+      {has_lattice && !isValidLattice(*options.position_lattice, 3),
+       "the lattice of positions needs finite numbers, and a step that is greater than 0"},
+      {options.step != 0 && !isStep(options.step),
+       "step is not a power of two from 2^-126 to 2^127"},
+      {options.step != 0 && is_precise,
+       "step excludes lossless, max_position_error and position_lattice"},
+      {options.quality != 0 && !(options.quality >= kLeastPixels && options.quality <= kMostPixels),
+       "quality is not from 16 to 1048576 pixels"},
+      {options.quality != 0 && (is_precise || options.step != 0),
+       "quality excludes lossless, max_position_error, position_lattice and step"},
+      {options.indices_only && options.drop_unused,
+       "attributes that are not compressed keep all their vertices: unused ones can be dropped "
+       "only "
+       "without indices_only"},
+      {has_previews && options.indices_only,
+       "a preview holds attributes, too: it can be made only without indices_only"},
+      {has_previews && !options.simplify, "previews need a function that simplifies: `simplify`"},
+  };
+  for (const auto& [is_refused, why] : rules) {
+    if (is_refused) return fail(Error::kBadArgument, why);
   }
   return {};
 }

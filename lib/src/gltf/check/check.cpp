@@ -17,10 +17,6 @@
 namespace mcc::gltf {
 namespace {
 
-bool areEqual(std::span<const uint8_t> a, std::span<const uint8_t> b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end());
-}
-
 class Checker {
  public:
   Checker(const Document& source, const Compressed& compressed, CheckResult& result)
@@ -48,19 +44,16 @@ class Checker {
  private:
   /// Checks that the primitives have the previews that were proved, and no others.
   Result checkPreviews() {
+    Result result;
     uint64_t count = 0;
     for (const EncodedPayload& preview : compressed_.previews) {
       is_payload_.clear();
-      for (size_t i = 0; i < preview.plan.pieces.size(); ++i) {
-        const std::vector<PartPlan>& parts = preview.plan.pieces[i].parts;
-        for (size_t k = 0; k < parts.size(); ++k) {
-          for (const PrimitiveRef& user : parts[k].users) {
-            MCC_GLTF_TRY(checkFailed(checkPreview(preview, i, k, user), user.path()));
-            ++count;
-          }
-        }
-      }
+      preview.plan.visitUsers([&](size_t i, size_t k, const PrimitiveRef& user) {
+        if (result.ok()) result = checkFailed(checkPreview(preview, i, k, user), user.path());
+        ++count;
+      });
     }
+    if (!result.ok()) return result;
     for (const auto& [ref, use] : use_of_) {
       const bool is_old = extensionOf(*source_.primitive(ref).json, kExtensionName) != nullptr;
       if (use->preview && !is_old) --count;
@@ -80,19 +73,20 @@ class Checker {
   /// Whether a view has the bytes of the payload that is being checked.
   bool holds(uint32_t view, const EncodedPayload& payload) {
     const auto [found, is_new] = is_payload_.try_emplace(view, false);
-    if (is_new) found->second = areEqual(payloadBytes(written_, view), payload.result.payload);
+    if (is_new)
+      found->second = std::ranges::equal(payloadBytes(written_, view), payload.result.payload);
     return found->second;
   }
 
   Result checkPayload(const EncodedPayload& payload) {
     is_payload_.clear();
+    Result result;
+    payload.plan.visitUsers([&](size_t i, size_t k, const PrimitiveRef& user) {
+      if (result.ok()) result = checkFailed(checkPrimitive(payload, i, k, user), user.path());
+    });
+    if (!result.ok()) return result;
     for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
       const PiecePlan& piece = payload.plan.pieces[i];
-      for (size_t k = 0; k < piece.parts.size(); ++k) {
-        for (const PrimitiveRef& user : piece.parts[k].users) {
-          MCC_GLTF_TRY(checkFailed(checkPrimitive(payload, i, k, user), user.path()));
-        }
-      }
       MCC_GLTF_TRY(checkFailed(checkBeside(payload, i), piece.parts[0].users[0].path()));
     }
     return {};
@@ -125,15 +119,13 @@ class Checker {
   /// Checks that the plan read the primitive as it is in the source.
   Result checkSource(const PiecePlan& piece, const PartPlan& part, const PrimitiveRef& ref) const {
     const Primitive& primitive = source_.primitive(ref);
-    uint64_t mode = 4;
-    if (const Json* number = findMember(*primitive.json, "mode")) asUnsigned(*number, mode);
     const AccessorMap accessors = accessorsOf(primitive);
     const auto isAsPlanned = [&](const AttributePlan& attribute) {
       const auto found = accessors.find({attribute.target, attribute.name});
       return found != accessors.end() && found->second == attribute.accessor;
     };
     const bool is_same =
-        primitive.indices == part.indices_accessor && mode == part.mode &&
+        primitive.indices == part.indices_accessor && primitive.mode == part.mode &&
         primitive.attributes.size() == piece.attributes.size() + piece.ordinary.size() &&
         primitive.target_count == piece.target_count &&
         std::all_of(piece.attributes.begin(), piece.attributes.end(), isAsPlanned) &&
@@ -264,7 +256,8 @@ class Checker {
       const auto isSame = [&](uint32_t old_view, uint32_t view) {
         const auto [found, is_new] = is_same.try_emplace({old_view, view}, false);
         if (is_new) {
-          found->second = areEqual(payloadBytes(source_, old_view), payloadBytes(written_, view));
+          found->second =
+              std::ranges::equal(payloadBytes(source_, old_view), payloadBytes(written_, view));
         }
         return found->second;
       };
@@ -300,7 +293,7 @@ class Checker {
       readElements(written_.accessors[filled.accessor], elements[filled.view].data(),
                    views[filled.view].stride_bytes, decoded);
       for (uint64_t i = 0; i < decoded.count; ++i) {
-        if (areEqual(fallback.element(i), decoded.element(i))) continue;
+        if (std::ranges::equal(fallback.element(i), decoded.element(i))) continue;
         return error(at("/accessors", filled.accessor), "the fallback differs from the payload");
       }
     }

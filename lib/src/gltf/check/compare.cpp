@@ -286,11 +286,10 @@ class BytesChecker {
   /// Adds the views that two members name. A view that does not exist was wrong in the source, too.
   void addViews(const Json* number, const Json* new_number, const char* array, uint64_t index,
                 const char* what) {
-    uint64_t old_view = 0;
-    uint64_t new_view = 0;
-    if (!asUnsigned(*number, old_view) || old_view >= source_.views.size()) return;
-    const bool exists = asUnsigned(new_number, new_view) && new_view < written_.views.size();
-    if (!exists) return addDifference(array, index, what);
+    const uint32_t old_view = indexOf(number, source_.views.size());
+    if (old_view == kNone) return;
+    const uint32_t new_view = indexOf(new_number, written_.views.size());
+    if (new_view == kNone) return addDifference(array, index, what);
     add(viewRange(source_, old_view), viewRange(written_, new_view), array, index, what);
   }
 

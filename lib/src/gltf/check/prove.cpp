@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "gltf/compress/quality.h"
+#include "gltf/decompress/decompress.h"
 #include "gltf/document/accessors.h"
-#include "gltf/document/payload.h"
 #include "host/parallel.h"
 
 namespace mcc::gltf {
@@ -345,11 +345,8 @@ class Prover {
     const std::vector<uint8_t>& bytes = decoded_.pieces[piece_number].attributes[number];
     AccessorData source_values;
     MCC_GLTF_TRY(readAccessor(source_, attribute.accessor, source_values));
-    AccessorData decoded_values;
-    decoded_values.data = bytes.data();
-    decoded_values.count = piece.wedge_count;
-    decoded_values.element_bytes = elementBytes(attribute.format);
-    decoded_values.stride_bytes = decoded_values.element_bytes;
+    const AccessorData decoded_values =
+        AccessorData::packed(bytes, static_cast<uint32_t>(elementBytes(attribute.format)));
     Promise promise;
     MCC_GLTF_TRY(promiseOf(attribute, coded, normalBits(piece), promise));
     const uint8_t bits = promise.kind == Promise::Kind::kExact ? uint8_t{0} : attribute.bits;
@@ -371,14 +368,12 @@ class Prover {
   Result sourceTriangles(const PrimitiveRef& ref, uint64_t vertex_count,
                          std::vector<uint32_t>& indices) const {
     const Primitive& primitive = source_.primitive(ref);
-    uint64_t mode = 4;
-    MCC_GLTF_TRY(readOptionalUnsigned(*primitive.json, "mode", ref.path(), 6, mode));
     if (primitive.indices != kNone) {
       MCC_GLTF_TRY(readIndices(source_, primitive.indices, indices));
     } else {
       for (uint32_t i = 0; i < vertex_count; ++i) indices.push_back(i);
     }
-    if (!expandTriangles(mode, indices)) return error("", "the source has no triangles");
+    if (!expandTriangles(primitive.mode, indices)) return error("", "the source has no triangles");
     return {};
   }
 

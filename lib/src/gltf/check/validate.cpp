@@ -11,7 +11,6 @@
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/accessors.h"
 #include "gltf/document/package.h"
-#include "gltf/document/payload.h"
 #include "gltf/document/references.h"
 #include "gltf/files/file_io.h"
 #include "host/parallel.h"
@@ -164,10 +163,7 @@ class Validator {
   void checkOtherViewUses(const std::map<uint32_t, size_t>& uses_of_view) {
     std::map<uint32_t, size_t> counts;
     visitViewReferences(document_.json, [&](const Json& reference, uint32_t) {
-      uint64_t view = 0;
-      if (asUnsigned(reference, view) && view < document_.views.size()) {
-        ++counts[static_cast<uint32_t>(view)];
-      }
+      ++counts[indexOf(&reference, document_.views.size())];
     });
     for (const auto& [view, count] : uses_of_view) {
       if (counts[view] <= count) continue;

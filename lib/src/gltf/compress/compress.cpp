@@ -22,15 +22,6 @@ void removeBytes(Json& accessor) {
 /// Index type of new accessors for `vertex_count` vertices; the largest value is the restart value.
 uint32_t indexTypeFor(uint32_t vertex_count) { return vertex_count <= 65535 ? 5123 : 5125; }
 
-bool indexTypeFits(ComponentType type, uint32_t vertex_count) {
-  switch (type) {
-    case ComponentType::kUint8: return vertex_count <= 255;
-    case ComponentType::kUint16: return vertex_count <= 65535;
-    case ComponentType::kUint32: return true;
-    default: return false;
-  }
-}
-
 /// Writes the payloads into the JSON of the document.
 class Applier {
  public:
@@ -108,18 +99,13 @@ class Applier {
   }
 
   void namePreview(const PayloadPlan& plan, uint64_t view) {
-    for (size_t i = 0; i < plan.pieces.size(); ++i) {
-      const std::vector<PartPlan>& parts = plan.pieces[i].parts;
-      for (size_t k = 0; k < parts.size(); ++k) {
-        Json preview = {{"bufferView", view}};
-        if (i != 0) preview["piece"] = i;
-        if (k != 0) preview["part"] = k;
-        for (const PrimitiveRef& user : parts[k].users) {
-          Json& primitive = (*meshes_)[user.mesh]["primitives"][user.primitive];
-          primitive["extensions"][kExtensionName]["preview"] = preview;
-        }
-      }
-    }
+    plan.visitUsers([&](size_t i, size_t k, const PrimitiveRef& user) {
+      Json preview = {{"bufferView", view}};
+      if (i != 0) preview["piece"] = i;
+      if (k != 0) preview["part"] = k;
+      Json& primitive = (*meshes_)[user.mesh]["primitives"][user.primitive];
+      primitive["extensions"][kExtensionName]["preview"] = std::move(preview);
+    });
   }
 
   bool usesMeshExtension() const {
@@ -188,7 +174,7 @@ class Applier {
     const uint32_t gl_type = indexTypeFor(wedge_count);
     const bool fits =
         part.indices_accessor != kNone &&
-        indexTypeFits(document_.accessors[part.indices_accessor].component_type, wedge_count);
+        holdsIndices(document_.accessors[part.indices_accessor].component_type, wedge_count);
     if (!fits) accessor["componentType"] = gl_type;
     accessor["count"] = part.triangles.size();
     setBounds(bounds, ComponentType::kUint32, false, accessor);

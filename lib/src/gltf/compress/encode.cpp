@@ -4,7 +4,6 @@
 #include <mutex>
 
 #include "gltf/compress/vertices.h"
-#include "gltf/document/payload.h"
 #include "host/parallel.h"
 
 namespace mcc::gltf {
@@ -46,13 +45,6 @@ EncodeOptions optionsOf(const ConvertOptions& options, const PayloadPlan& plan) 
   return encode_options;
 }
 
-void leaveAlone(const PiecePlan& piece, const std::string& note,
-                std::vector<LeftAlone>& left_alone) {
-  for (const PartPlan& part : piece.parts) {
-    for (const PrimitiveRef& user : part.users) left_alone.push_back({user, note});
-  }
-}
-
 std::string refusal(const Status& status) {
   return "the codec refuses it (" + toResult(status, "").what + "); left as it was";
 }
@@ -67,7 +59,7 @@ void removeRefusedPieces(const EncodeOptions& options, PayloadPlan& plan,
     if (status.ok()) {
       accepted.push_back(std::move(piece));
     } else {
-      leaveAlone(piece, refusal(status), left_alone);
+      leaveAlone(piece, refusal(status), false, left_alone);
     }
   }
   plan.pieces = std::move(accepted);
@@ -81,7 +73,7 @@ Status encodePlan(const EncodeOptions& options, const PayloadPlan& plan, EncodeR
 
 void leaveAllAlone(const std::string& note, EncodedPayload& payload,
                    std::vector<LeftAlone>& left_alone) {
-  for (const PiecePlan& piece : payload.plan.pieces) leaveAlone(piece, note, left_alone);
+  for (const PiecePlan& piece : payload.plan.pieces) leaveAlone(piece, note, false, left_alone);
   payload = {};
 }
 
@@ -108,15 +100,7 @@ class EncodingProgress {
  public:
   EncodingProgress(const ConvertOptions& options, const std::vector<PayloadPlan>& plans)
       : options_(options) {
-    for (const PayloadPlan& plan : plans) all_ += trianglesOf(plan);
-  }
-
-  static uint64_t trianglesOf(const PayloadPlan& plan) {
-    uint64_t count = 0;
-    for (const PiecePlan& piece : plan.pieces) {
-      for (const PartPlan& part : piece.parts) count += part.triangles.size() / 3;
-    }
-    return count;
+    for (const PayloadPlan& plan : plans) all_ += plan.triangleCount();
   }
 
   void advance(uint64_t triangle_count) {
@@ -161,7 +145,7 @@ Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> pl
     plan.keep_triangle_order |= options.keep_triangle_order;
     EncodeOptions encode_options = optionsOf(options, plan);
     encode_options.run_jobs = run_jobs;
-    const uint64_t triangle_count = EncodingProgress::trianglesOf(plan);
+    const uint64_t triangle_count = plan.triangleCount();
     Result result = encodeOne(encode_options, encoded[i], refused[i]);
     progress.advance(triangle_count);
     return result;

@@ -388,6 +388,25 @@ AttributeView AttributePlan::view() const {
   return view;
 }
 
+uint64_t PiecePlan::triangleCount() const {
+  uint64_t count = 0;
+  for (const PartPlan& part : parts) count += part.triangles.size() / 3;
+  return count;
+}
+
+uint64_t PayloadPlan::triangleCount() const {
+  uint64_t count = 0;
+  for (const PiecePlan& piece : pieces) count += piece.triangleCount();
+  return count;
+}
+
+void leaveAlone(const PiecePlan& piece, const std::string& note, bool is_larger,
+                std::vector<LeftAlone>& left_alone) {
+  for (const PartPlan& part : piece.parts) {
+    for (const PrimitiveRef& user : part.users) left_alone.push_back({user, note, is_larger});
+  }
+}
+
 bool comesBefore(const AttributePlan& a, const AttributePlan& b) {
   const auto key = [](const AttributePlan& attribute) {
     return std::tie(attribute.format.morph_target, attribute.format.semantic,
@@ -409,7 +428,7 @@ struct PayloadCounts {
     attributes += piece.attributes.size();
     ++pieces;
     wedges += piece.wedge_count;
-    for (const PartPlan& part : piece.parts) triangles += part.triangles.size() / 3;
+    triangles += piece.triangleCount();
   }
   bool isAccepted() const {
     constexpr Limits kLimits;
@@ -418,17 +437,11 @@ struct PayloadCounts {
   }
 };
 
-}  // namespace
-
-namespace {
-
 bool mayHaveBlocks(const ConvertOptions& options, const PayloadPlan& payload,
                    const PiecePlan& piece) {
   if (payload.keep_vertex_order || payload.keep_triangle_order || payload.indices_only)
     return false;
-  uint64_t triangle_count = 0;
-  for (const PartPlan& part : piece.parts) triangle_count += part.triangles.size() / 3;
-  return blockTriangles(options.block_triangles, options.prefer, triangle_count) != 0;
+  return blockTriangles(options.block_triangles, options.prefer, piece.triangleCount()) != 0;
 }
 
 }  // namespace

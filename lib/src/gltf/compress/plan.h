@@ -59,6 +59,7 @@ struct PiecePlan {
   /// Accessors that hold numbers of its vertices, and nothing else uses; see vertices.h.
   std::vector<uint32_t> vertex_numbers;
 
+  uint64_t triangleCount() const;
   /// The mesh that uses it, or the first of them.
   uint32_t mesh() const { return parts[0].users[0].mesh; }
 };
@@ -76,6 +77,16 @@ struct PayloadPlan {
 
   /// Whether the accessors of attributes get their elements in another order.
   bool reorders() const { return indices_only && !keep_vertex_order; }
+  uint64_t triangleCount() const;
+  /// Calls visit(size_t piece, size_t part, const PrimitiveRef& user) for all that use it.
+  template <typename Visit>
+  void visitUsers(const Visit& visit) const {
+    for (size_t i = 0; i < pieces.size(); ++i) {
+      for (size_t k = 0; k < pieces[i].parts.size(); ++k) {
+        for (const PrimitiveRef& user : pieces[i].parts[k].users) visit(i, k, user);
+      }
+    }
+  }
   std::vector<PiecePlan> pieces;
 };
 
@@ -85,6 +96,10 @@ struct LeftAlone {
   std::string note;
   bool is_larger = false;  ///< only because its payload would take more bytes
 };
+
+/// Leaves the primitives of a piece as they were.
+void leaveAlone(const PiecePlan& piece, const std::string& note, bool is_larger,
+                std::vector<LeftAlone>& left_alone);
 
 /// What all pieces and parts hold together, counted as often as they hold it, for each byte that
 /// was read. Files without shared bytes stay below it even if they consist of strips of small

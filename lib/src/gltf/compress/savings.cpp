@@ -157,9 +157,8 @@ ByteOwners ownersOf(const Document& document, const std::vector<bool>& in_other_
                ByteOwners::kSomebodyElse);
   }
   for (const Json& image : arrayOf(document.json, "images")) {
-    uint64_t view = 0;
-    if (!asUnsigned(findMember(image, "bufferView"), view) || view >= document.views.size())
-      continue;
+    const uint32_t view = indexOf(findMember(image, "bufferView"), document.views.size());
+    if (view == kNone) continue;
     owners.add({viewRange(document, view)}, ByteOwners::kSomebodyElse);
   }
   owners.count();
@@ -201,15 +200,13 @@ std::vector<bool> touchingPieces(const PayloadPlan& plan, const std::vector<bool
   return touches;
 }
 
-/// Leaves the primitives of a piece as they were. `cost_bytes` is the size of payload and JSON.
+/// Leaves a piece alone. `cost_bytes` is the size of payload and JSON.
 void leaveAlone(const PiecePlan& piece, uint64_t cost_bytes, uint64_t freed_bytes,
                 std::vector<LeftAlone>& left_alone) {
-  const std::string note = "would not become smaller (payload and JSON " +
-                           std::to_string(cost_bytes) + " bytes, buffers " +
-                           std::to_string(freed_bytes) + " bytes); left as it was";
-  for (const PartPlan& part : piece.parts) {
-    for (const PrimitiveRef& user : part.users) left_alone.push_back({user, note, true});
-  }
+  leaveAlone(piece,
+             "would not become smaller (payload and JSON " + std::to_string(cost_bytes) +
+                 " bytes, buffers " + std::to_string(freed_bytes) + " bytes); left as it was",
+             true, left_alone);
 }
 
 /// Finds the payloads that cost at least as many bytes as they free. The payloads of one mesh that

@@ -127,9 +127,8 @@ void TextureUses::findTextureSizes() {
   for (const Json& texture : arrayOf(document_.json, "textures")) {
     double largest = 0;
     const auto add = [&](const Json* source) {
-      uint64_t image = 0;
-      if (asUnsigned(source, image) && image < images.size())
-        largest = std::max(largest, images[image]);
+      const uint32_t image = indexOf(source, images.size());
+      if (image != kNone) largest = std::max(largest, images[image]);
     };
     add(findMember(texture, "source"));
     if (const Json* extensions = findMember(texture, "extensions")) {
@@ -163,8 +162,8 @@ double TextureUses::imageTexels(const Json& image) const {
 double TextureUses::texels(const PrimitiveRef& primitive, uint32_t set) const {
   double largest = 0;
   const auto add = [&](const Json* number) {
-    uint64_t material = 0;
-    if (!asUnsigned(number, material) || material >= of_material_.size()) return;
+    const uint32_t material = indexOf(number, of_material_.size());
+    if (material == kNone) return;
     const auto found = of_material_[material].find(set);
     if (found != of_material_[material].end()) largest = std::max(largest, found->second);
   };

@@ -24,9 +24,7 @@ Result inPlace(Result result, const std::string& where) {
 template <typename Visit>
 void visitTrianglePrimitives(const Document& document, const Visit& visit) {
   for (const Primitive& primitive : document.primitives) {
-    uint64_t mode = 4;
-    const Json* number = findMember(*primitive.json, "mode");
-    if (number == nullptr || (asUnsigned(*number, mode) && mode >= 4)) visit(primitive);
+    if (primitive.mode >= 4) visit(primitive);
   }
 }
 
@@ -102,14 +100,13 @@ class MeshReader {
 
   /// Decodes a primitive. Where it is damaged, it stays as it is, with a note; an error is the
   /// limit of the document.
-  Result read(const Json& primitive, const std::string& path) {
-    const Json* extensions = findMember(primitive, "extensions");
-    const Json* extension =
-        extensions == nullptr ? nullptr : findMember(*extensions, kMeshExtension);
+  Result read(const Primitive& primitive) {
+    const Json* extension = extensionOf(*primitive.json, kMeshExtension);
     if (extension == nullptr) return {};
+    const std::string path = primitive.ref.path();
     CodedPrimitive coded;
     coded.path = path + "/extensions/" + kMeshExtension;
-    Result damage = parse(primitive, path, *extension, coded);
+    Result damage = parse(*primitive.json, path, *extension, coded);
     if (damage.ok()) {
       const std::string reason = obstacle(primitive, coded);
       if (!reason.empty()) {
@@ -133,12 +130,9 @@ class MeshReader {
  private:
   Result accessorOf(const Json* number, const std::string& name, const std::string& path,
                     uint32_t& accessor) const {
-    uint64_t index = 0;
-    if (!asUnsigned(number, index) || index >= document_.accessors.size()) {
-      return error(at(path, name), "must be the number of an accessor");
-    }
-    accessor = static_cast<uint32_t>(index);
-    return {};
+    accessor = indexOf(number, document_.accessors.size());
+    return accessor != kNone ? Result()
+                             : error(at(path, name), "must be the number of an accessor");
   }
 
   Result parse(const Json& primitive, const std::string& path, const Json& extension,
@@ -177,12 +171,8 @@ class MeshReader {
   }
 
   /// Returns why a primitive is not decoded; empty when it can be. Completes the claims.
-  std::string obstacle(const Json& primitive, CodedPrimitive& coded) const {
-    uint64_t mode = 4;
-    const Json* number = findMember(primitive, "mode");
-    if (number != nullptr && (!asUnsigned(*number, mode) || mode != 4)) {
-      return "is compressed but not a triangle list";
-    }
+  std::string obstacle(const Primitive& primitive, CodedPrimitive& coded) const {
+    if (primitive.mode != 4) return "is compressed but not a triangle list";
     std::vector<uint32_t> all = coded.attributes;
     all.push_back(coded.indices);
     const auto has_bytes = [&](uint32_t accessor) { return hasBytes(accessor); };
@@ -327,7 +317,7 @@ Result decodeMeshes(const ForeignDecoders& decoders, Document& document, Result*
   MeshReader reader(decoders, document);
   Result result;
   visitTrianglePrimitives(document, [&](const Primitive& primitive) {
-    if (result.ok()) result = reader.read(*primitive.json, primitive.ref.path());
+    if (result.ok()) result = reader.read(primitive);
   });
   if (refused != nullptr && refused->ok()) *refused = reader.firstDamage();
   return result;

@@ -6,7 +6,6 @@
 
 #include "gltf/document/accessors.h"
 #include "gltf/document/references.h"
-#include "host/parallel.h"
 
 namespace mcc::gltf {
 namespace {
@@ -20,6 +19,48 @@ IndexType indexTypeOf(ComponentType type) {
 }
 
 }  // namespace
+
+uint64_t outputBytes(const PayloadInfo& info) {
+  uint64_t bytes = 0;
+  for (const PieceInfo& piece : info.pieces) {
+    for (const AttributeInfo& attribute : piece.attributes) {
+      bytes += uint64_t{piece.wedge_count} * elementBytes(attribute.format);
+    }
+    for (const PartInfo& part : piece.parts) bytes += uint64_t{12} * part.triangle_count;
+  }
+  return bytes;
+}
+
+Status decodePieces(DecodedPayload& decoded, const mcc::DecodeOptions& options) {
+  const std::span<const PieceInfo> infos = decoded.payload.info().pieces;
+  std::vector<std::vector<AttributeTarget>> attribute_targets(infos.size());
+  std::vector<std::vector<PartTarget>> part_targets(infos.size());
+  std::vector<PieceTarget> targets(infos.size());
+  decoded.pieces.resize(infos.size());
+  for (size_t i = 0; i < infos.size(); ++i) {
+    DecodedPiece& piece = decoded.pieces[i];
+    for (const AttributeInfo& attribute : infos[i].attributes) {
+      const size_t bytes = elementBytes(attribute.format);
+      piece.attributes.emplace_back(infos[i].wedge_count * bytes);
+      attribute_targets[i].push_back({piece.attributes.back().data(), bytes});
+    }
+    for (const PartInfo& part : infos[i].parts) {
+      piece.parts.emplace_back(size_t{3} * part.triangle_count);
+      part_targets[i].push_back({piece.parts.back().data(), IndexType::kUint32});
+    }
+    targets[i] = {attribute_targets[i], part_targets[i]};
+  }
+  return decoded.payload.decode(targets, options);
+}
+
+Result decodePayload(std::span<const uint8_t> bytes, const std::string& where,
+                     DecodedPayload& decoded, const RunJobs& run_jobs) {
+  decoded = {};
+  MCC_GLTF_TRY(toResult(decoded.payload.open(bytes), where));
+  mcc::DecodeOptions options;
+  options.run_jobs = runnerOf(run_jobs);
+  return toResult(decodePieces(decoded, options), where);
+}
 
 Result PayloadDecoder::open() {
   MCC_GLTF_TRY(findExtensionUses(document_, uses_));
@@ -281,11 +322,7 @@ Result addFallback(const std::vector<uint8_t>& bin, Json& json, std::vector<uint
       offsets[number] = (end + 3) & ~uint64_t{3};
       end = offsets[number] + view.byte_count;
       numbers[number] = views.size();
-      Json added = {
-          {"buffer", buffer}, {"byteOffset", offsets[number]}, {"byteLength", view.byte_count}};
-      if (view.stride_bytes != 0) added["byteStride"] = view.stride_bytes;
-      added["target"] = view.target;
-      views.push_back(std::move(added));
+      views.push_back(view.json(buffer, offsets[number]));
     }
     accessors[accessor]["bufferView"] = numbers[number];
   }

@@ -19,11 +19,34 @@
 #include "gltf/decompress/integers.h"
 #include "gltf/document/extension_uses.h"
 #include "gltf/document/layout.h"
-#include "gltf/document/payload.h"
+#include "host/parallel.h"
 #include "json/json.h"
 #include "mcc/glb.h"
+#include "mcc/reader.h"
 
 namespace mcc::gltf {
+
+struct DecodedPiece {
+  std::vector<std::vector<uint8_t>> attributes;  ///< packed elements in decoded order
+  std::vector<std::vector<uint32_t>> parts;      ///< three wedges per triangle
+};
+
+/// A payload and everything decoded from it.
+struct DecodedPayload {
+  Payload payload;
+  std::vector<DecodedPiece> pieces;
+};
+
+/// Returns the bytes of all attributes of an opened payload, and of all its indices with 32 bits
+/// each.
+uint64_t outputBytes(const PayloadInfo& info);
+
+/// Decodes all pieces of an opened payload.
+Status decodePieces(DecodedPayload& decoded, const mcc::DecodeOptions& options = {});
+
+/// Opens a payload and decodes all of it. `bytes` must outlive `decoded`.
+Result decodePayload(std::span<const uint8_t> bytes, const std::string& where,
+                     DecodedPayload& decoded, const RunJobs& run_jobs = {});
 
 /// All payloads of a document, and the buffer views that their elements become. Previews are
 /// decoded like the rest, since one that is damaged is an error, but fill no view.

@@ -22,22 +22,72 @@ class IntegerAccessors {
  public:
   /// json and views are those of layOut(); both must outlive the object.
   IntegerAccessors(const Document& source, const CodedAttributes& coded, Json& json,
-                   std::vector<NewView>& views);
+                   std::vector<NewView>& views)
+      : source_(source), coded_(coded), json_(json["accessors"]), views_(views) {
+    for (const Primitive& primitive : source.primitives) {
+      for (const auto& [name, target, accessor] : primitive.attributes) {
+        if (accessor == kNone) continue;
+        meanings_[accessor].insert((target == kNone ? "" : "target ") + std::string(name));
+      }
+    }
+  }
 
   /// Returns how an accessor was coded if it still holds floats on a grid and all its users mean
   /// the same attribute by it; else null.
-  const AttributeInfo* coding(uint32_t accessor) const;
+  const AttributeInfo* coding(uint32_t accessor) const {
+    const auto found = coded_.find(accessor);
+    if (found == coded_.end()) return nullptr;
+    const Accessor& source = source_.accessors[accessor];
+    if (source.isUsedOutsideMeshes() || source.extension_uses != 0) return nullptr;
+    switch (found->second.coding) {
+      case AttributeCoding::kLattice:
+      case AttributeCoding::kOctahedral:
+      case AttributeCoding::kTangentAngle: break;
+      default: return nullptr;
+    }
+    const bool is_free = replaced_.count(accessor) == 0 && meanings_.at(accessor).size() == 1;
+    return is_free ? &found->second : nullptr;
+  }
 
   /// Returns a label such as "/accessors/3: target POSITION". The accessor must have a coding.
-  std::string label(uint32_t accessor) const;
+  std::string label(uint32_t accessor) const {
+    return at("/accessors", accessor) + ": " + *meanings_.at(accessor).begin();
+  }
   uint64_t count(uint32_t accessor) const { return source_.accessors[accessor].count; }
   /// Returns component `index`, counted over all components of all elements.
-  double value(uint32_t accessor, uint64_t index) const;
+  double value(uint32_t accessor, uint64_t index) const {
+    const uint64_t view = json_[accessor]["bufferView"].get<uint64_t>();
+    return componentValue(views_[view - kFirstNewView].bytes + 4 * index, ComponentType::kFloat32);
+  }
 
   /// Replaces the values, three per element for a VEC3 and so on, and updates the bounds. Must be
   /// called at most once per accessor.
-  void replace(uint32_t accessor, ComponentType type, bool normalized,
-               const std::vector<int32_t>& values);
+  void replace(uint32_t index, ComponentType type, bool normalized,
+               const std::vector<int32_t>& values) {
+    static constexpr int kGlTypes[] = {5120, 5121, 5122, 5123, 5125, 5126};
+    replaced_.insert(index);
+    Accessor accessor = source_.accessors[index];
+    accessor.component_type = type;
+    const uint32_t bytes = componentBytes(type);
+    const uint32_t components = accessor.componentCount();
+    std::vector<uint8_t> tight;
+    std::vector<int32_t> low(components, std::numeric_limits<int32_t>::max());
+    std::vector<int32_t> high(components, std::numeric_limits<int32_t>::min());
+    for (size_t i = 0; i < values.size(); ++i) {
+      for (uint32_t b = 0; b < bytes; ++b)
+        tight.push_back(static_cast<uint8_t>(values[i] >> 8 * b));
+      low[i % components] = std::min(low[i % components], values[i]);
+      high[i % components] = std::max(high[i % components], values[i]);
+    }
+    Json& json = json_[index];
+    NewView& view = views_[json["bufferView"].get<uint64_t>() - kFirstNewView];
+    view.hold(packAttribute(tight, accessor, view.stride_bytes));
+    json["componentType"] = kGlTypes[static_cast<size_t>(type)];
+    json.erase("normalized");
+    if (normalized) json["normalized"] = true;
+    if (findMember(json, "min") != nullptr) json["min"] = low;
+    if (findMember(json, "max") != nullptr) json["max"] = high;
+  }
 
  private:
   const Document& source_;
@@ -47,67 +97,6 @@ class IntegerAccessors {
   std::map<uint32_t, std::set<std::string>> meanings_;  ///< the attributes it is used as
   std::set<uint32_t> replaced_;
 };
-
-IntegerAccessors::IntegerAccessors(const Document& source, const CodedAttributes& coded, Json& json,
-                                   std::vector<NewView>& views)
-    : source_(source), coded_(coded), json_(json["accessors"]), views_(views) {
-  for (const Primitive& primitive : source.primitives) {
-    for (const auto& [name, target, accessor] : primitive.attributes) {
-      if (accessor == kNone) continue;
-      meanings_[accessor].insert((target == kNone ? "" : "target ") + std::string(name));
-    }
-  }
-}
-
-const AttributeInfo* IntegerAccessors::coding(uint32_t accessor) const {
-  const auto found = coded_.find(accessor);
-  if (found == coded_.end()) return nullptr;
-  const Accessor& source = source_.accessors[accessor];
-  if (source.isUsedOutsideMeshes() || source.extension_uses != 0) return nullptr;
-  switch (found->second.coding) {
-    case AttributeCoding::kLattice:
-    case AttributeCoding::kOctahedral:
-    case AttributeCoding::kTangentAngle: break;
-    default: return nullptr;
-  }
-  const bool is_free = replaced_.count(accessor) == 0 && meanings_.at(accessor).size() == 1;
-  return is_free ? &found->second : nullptr;
-}
-
-std::string IntegerAccessors::label(uint32_t accessor) const {
-  return at("/accessors", accessor) + ": " + *meanings_.at(accessor).begin();
-}
-
-double IntegerAccessors::value(uint32_t accessor, uint64_t index) const {
-  const uint64_t view = json_[accessor]["bufferView"].get<uint64_t>();
-  return componentValue(views_[view - kFirstNewView].bytes + 4 * index, ComponentType::kFloat32);
-}
-
-void IntegerAccessors::replace(uint32_t index, ComponentType type, bool normalized,
-                               const std::vector<int32_t>& values) {
-  static constexpr int kGlTypes[] = {5120, 5121, 5122, 5123, 5125, 5126};
-  replaced_.insert(index);
-  Accessor accessor = source_.accessors[index];
-  accessor.component_type = type;
-  const uint32_t bytes = componentBytes(type);
-  const uint32_t components = accessor.componentCount();
-  std::vector<uint8_t> tight;
-  std::vector<int32_t> low(components, std::numeric_limits<int32_t>::max());
-  std::vector<int32_t> high(components, std::numeric_limits<int32_t>::min());
-  for (size_t i = 0; i < values.size(); ++i) {
-    for (uint32_t b = 0; b < bytes; ++b) tight.push_back(static_cast<uint8_t>(values[i] >> 8 * b));
-    low[i % components] = std::min(low[i % components], values[i]);
-    high[i % components] = std::max(high[i % components], values[i]);
-  }
-  Json& json = json_[index];
-  NewView& view = views_[json["bufferView"].get<uint64_t>() - kFirstNewView];
-  view.hold(packAttribute(tight, accessor, view.stride_bytes));
-  json["componentType"] = kGlTypes[static_cast<size_t>(type)];
-  json.erase("normalized");
-  if (normalized) json["normalized"] = true;
-  if (findMember(json, "min") != nullptr) json["min"] = low;
-  if (findMember(json, "max") != nullptr) json["max"] = high;
-}
 
 // ---- Values other than positions
 
@@ -271,9 +260,9 @@ class PositionStore {
       : source_(source),
         accessors_(accessors),
         json_(json),
-        nodes_(member("nodes")),
-        skins_(member("skins")),
-        all_accessors_(member("accessors")),
+        nodes_(member(&json_, "nodes")),
+        skins_(member(&json_, "skins")),
+        all_accessors_(member(&json_, "accessors")),
         skin_room_(kSkinBytes + kMaxCopies * source.source_bytes),
         views_(views),
         notes_(notes),
@@ -302,13 +291,6 @@ class PositionStore {
     Lattice lattice;
   };
 
-  /// Returns a member of the document, or null. No member is added to the document while this
-  /// lives.
-  Json* member(const char* key) {
-    const auto found = json_.find(key);
-    return found == json_.end() ? nullptr : &*found;
-  }
-
   void collectMeshes() {
     meshes_.resize(source_.first_primitive_of.size());
     for (const Primitive& primitive : source_.primitives) {
@@ -320,9 +302,8 @@ class PositionStore {
     }
     const Json& nodes = arrayOf(json_, "nodes");
     for (uint32_t node = 0; node < nodes.size(); ++node) {
-      uint64_t mesh = 0;
-      if (!asUnsigned(findMember(nodes[node], "mesh"), mesh) || mesh >= meshes_.size()) continue;
-      meshes_[mesh].nodes.push_back(node);
+      const uint32_t mesh = indexOf(findMember(nodes[node], "mesh"), meshes_.size());
+      if (mesh != kNone) meshes_[mesh].nodes.push_back(node);
     }
   }
 
@@ -561,14 +542,14 @@ class PositionStore {
       }
       return matrices;
     }
-    uint64_t index = 0;
-    if (!asUnsigned(*number, index) || index >= source_.accessors.size()) return {};
+    const uint32_t index = indexOf(number, source_.accessors.size());
+    if (index == kNone) return {};
     const Accessor& accessor = source_.accessors[index];
     const bool is_usable = accessor.is_known_type && accessor.columns == 4 &&
                            accessor.component_type == ComponentType::kFloat32 &&
                            accessor.count >= joint_count;
     AccessorData data;
-    if (!is_usable || !readAccessor(source_, static_cast<uint32_t>(index), data).ok()) return {};
+    if (!is_usable || !readAccessor(source_, index, data).ok()) return {};
     for (size_t i = 0; i < matrices.size(); ++i) {
       const auto element = data.element(i / 16);
       matrices[i] = static_cast<float>(
@@ -677,6 +658,7 @@ class PositionStore {
   const Document& source_;
   IntegerAccessors& accessors_;
   Json& json_;
+  // Members of the document, or null. None is added while this lives.
   Json* const nodes_;
   Json* const skins_;
   Json* const all_accessors_;

@@ -148,12 +148,22 @@ Result readAccessor(const Document& document, uint32_t index, AccessorData& elem
   return applySparse(document, accessor, path, elements.owned);
 }
 
+bool isOfIndices(const Accessor& accessor) {
+  const ComponentType type = accessor.component_type;
+  return accessor.is_known_type && accessor.componentCount() == 1 &&
+         (type == ComponentType::kUint8 || type == ComponentType::kUint16 ||
+          type == ComponentType::kUint32);
+}
+
+bool holdsIndices(ComponentType type, uint64_t vertex_count) {
+  return type == ComponentType::kUint32 ||
+         (type == ComponentType::kUint16 && vertex_count <= 0xffff) ||
+         (type == ComponentType::kUint8 && vertex_count <= 0xff);
+}
+
 Result readIndices(const Document& document, uint32_t index, std::vector<uint32_t>& indices) {
   const Accessor& accessor = document.accessors[index];
-  const ComponentType type = accessor.component_type;
-  const bool is_unsigned = type == ComponentType::kUint8 || type == ComponentType::kUint16 ||
-                           type == ComponentType::kUint32;
-  if (!accessor.is_known_type || accessor.componentCount() != 1 || !is_unsigned) {
+  if (!isOfIndices(accessor)) {
     return error(at("/accessors", index),
                  "indices must be SCALAR of an unsigned type, not " + describeType(accessor));
   }
@@ -284,12 +294,7 @@ Bounds boundsOf(const AccessorData& elements, ComponentType type) {
 }
 
 Bounds boundsOf(std::span<const uint8_t> tight, ComponentType type, uint32_t component_count) {
-  AccessorData elements;
-  elements.element_bytes = component_count * componentBytes(type);
-  elements.stride_bytes = elements.element_bytes;
-  elements.count = tight.size() / elements.element_bytes;
-  elements.data = tight.data();
-  return boundsOf(elements, type);
+  return boundsOf(AccessorData::packed(tight, component_count * componentBytes(type)), type);
 }
 
 Bounds boundsOf(std::span<const uint32_t> indices) {

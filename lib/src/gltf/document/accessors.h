@@ -22,6 +22,10 @@ struct AccessorData {
   uint32_t element_bytes = 0;
   std::vector<uint8_t> owned;
 
+  /// Returns elements that follow each other without gaps. Borrows them.
+  static AccessorData packed(std::span<const uint8_t> bytes, uint32_t element_bytes) {
+    return {bytes.data(), element_bytes, bytes.size() / element_bytes, element_bytes, {}};
+  }
   std::span<const uint8_t> element(uint64_t index) const {
     return {data + index * stride_bytes, element_bytes};
   }
@@ -52,6 +56,13 @@ bool expandTriangles(uint64_t mode, std::vector<uint32_t>& vertices);
 
 /// Returns the type and the component type of an accessor in glTF's words: "VEC3 of FLOAT".
 std::string describeType(const Accessor& accessor);
+
+/// Whether an accessor has the type of indices: SCALAR of unsigned integers.
+bool isOfIndices(const Accessor& accessor);
+
+/// Whether indices of a type can name this many vertices. The largest value of 8 or 16 bits is
+/// none: it restarts strips.
+bool holdsIndices(ComponentType type, uint64_t vertex_count);
 
 /// Returns one component as a number.
 double componentValue(const uint8_t* bytes, ComponentType type);

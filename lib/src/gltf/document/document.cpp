@@ -10,6 +10,7 @@
 #include "gltf/document/package.h"
 #include "gltf/document/references.h"
 #include "gltf/document/uri.h"
+#include "mcc/decoded_limit.h"
 #include "mcc/glb.h"
 
 namespace mcc::gltf {
@@ -461,9 +462,8 @@ class UseFinder {
 
  private:
   Accessor* accessorOf(const Json& number) {
-    uint64_t index = 0;
-    const bool exists = asUnsigned(number, index) && index < document_.accessors.size();
-    return exists ? &document_.accessors[index] : nullptr;
+    const uint32_t index = indexOf(&number, document_.accessors.size());
+    return index == kNone ? nullptr : &document_.accessors[index];
   }
 
   void addPrimitives(const Json& mesh) {
@@ -473,6 +473,8 @@ class UseFinder {
       Primitive& primitive = document_.primitives.emplace_back();
       primitive.ref = ref;
       primitive.json = &json;
+      const Json* const mode = findMember(json, "mode");
+      if (mode != nullptr && !asUnsigned(*mode, primitive.mode)) primitive.mode = 0;
       PrimitiveParser(document_.accessors.size(), primitive).parse();
       addUses(primitive);
       ++ref.primitive;
@@ -510,8 +512,8 @@ class UseFinder {
     std::vector<BufferView>& views = document_.views;
     std::vector<bool> is_referred(views.size(), false);
     visitViewReferences(root_, [&](const Json& number, uint32_t) {
-      uint64_t view = 0;
-      if (asUnsigned(number, view) && view < views.size()) is_referred[view] = true;
+      const uint32_t view = indexOf(&number, views.size());
+      if (view != kNone) is_referred[view] = true;
     });
     std::set<std::pair<uint32_t, uint64_t>> begins;
     for (size_t i = 0; i < views.size(); ++i) {
@@ -623,6 +625,31 @@ Result embedImage(const FileReader& read_file, size_t index,
 
 }  // namespace
 
+DecodedBytes::DecodedBytes(uint64_t max_decoded_bytes, uint64_t file_bytes)
+    : limit_(decodedLimit(max_decoded_bytes, file_bytes)), file_bytes_(file_bytes) {}
+
+void DecodedBytes::add(uint64_t bytes) {
+  total_ = bytes > ~uint64_t{0} - total_ ? ~uint64_t{0} : total_ + bytes;
+}
+
+Result DecodedBytes::check() const {
+  if (total_ <= limit_) return {};
+  return error("", "its " + std::to_string(file_bytes_) + " bytes ask for " +
+                       std::to_string(total_) + " bytes of decoded geometry; the limit is " +
+                       std::to_string(limit_) +
+                       ", which max_decoded_bytes (--max-decoded-bytes) raises");
+}
+
+Result toResult(const Status& status, const std::string& where) {
+  if (status.ok()) return {};
+  std::string what = status.what;
+  if (what.empty()) what = "error " + std::to_string(static_cast<int>(status.error));
+  if (status.offset_bytes != Status::kNoOffset) {
+    what += " (byte " + std::to_string(status.offset_bytes) + " of the payload)";
+  }
+  return error(where, what);
+}
+
 Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file,
                     Document& document) {
   document = {};
@@ -709,9 +736,7 @@ bool removeFallback(size_t number, Json& json) {
   const std::set<uint64_t> compressed = compressedAccessors(json);
   bool is_needed = false;
   visitViewReferences(json, [&](const Json& reference, uint32_t accessor) {
-    uint64_t view = 0;
-    const bool is_lost = !asUnsigned(reference, view) || view >= view_count;
-    is_needed |= is_lost && compressed.count(accessor) == 0;
+    is_needed |= indexOf(&reference, view_count) == kNone && !compressed.contains(accessor);
   });
   if (is_needed) return false;
   if (!compressed.empty() && *compressed.rbegin() >= arrayOf(json, "accessors").size()) {

@@ -16,9 +16,10 @@
 #include <vector>
 
 #include "gltf/document/glb.h"
-#include "gltf/document/payload.h"
 #include "gltf/document/references.h"
+#include "host/result.h"
 #include "json/json.h"
+#include "mcc/status.h"
 #include "mcc/types.h"
 
 namespace mcc::gltf {
@@ -128,8 +129,34 @@ struct Primitive {
   std::vector<Attribute> attributes;  ///< those of the base mesh first, in the order of the JSON
   uint32_t target_count = 0;
   uint32_t indices = kNone;  ///< accessor; kNone: there is none
+  uint64_t mode = 4;         ///< 0 if it is no number
   /// What is wrong with the numbers of its accessors. Its place begins at the primitive.
   Result fault;
+};
+
+/// Adds up the bytes that decoding a document takes, before memory is taken for them.
+class DecodedBytes {
+ public:
+  /// Counts without a limit.
+  DecodedBytes() = default;
+  /// Sets the limit from max_decoded_bytes and file_bytes, see decodedLimit().
+  DecodedBytes(uint64_t max_decoded_bytes, uint64_t file_bytes);
+
+  /// Adds to the sum without a check. The sum saturates.
+  void add(uint64_t bytes);
+  /// Fails when the sum is above the limit. The message states both and says how to raise the
+  /// limit.
+  Result check() const;
+
+  uint64_t total() const { return total_; }
+  /// Returns how much of the limit accessors may take that have no bytes in the file. They need a
+  /// bound of their own, because a file can claim them at no cost.
+  uint64_t zeroLimit() const { return limit_ / 32; }
+
+ private:
+  uint64_t limit_ = ~uint64_t{0};
+  uint64_t file_bytes_ = 0;
+  uint64_t total_ = 0;
 };
 
 struct Document {
@@ -165,6 +192,9 @@ struct Document {
     return buffer < missing_buffers.size() && missing_buffers[buffer];
   }
 };
+
+/// Converts a codec status to a result.
+Result toResult(const Status& status, const std::string& where);
 
 /// Fetches a file. The path must be one that relativePathOf() has accepted.
 using FileReader =

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "gltf/document/accessors.h"
-#include "gltf/document/payload.h"
 #include "gltf/document/references.h"
 
 namespace mcc::gltf {
@@ -310,18 +309,10 @@ void checkIndices(const Document& document, const ExtensionUse& use, const Piece
                      std::to_string(count) + " indices");
     }
   }
-  const ComponentType type = accessor.component_type;
-  const bool is_unsigned = type == ComponentType::kUint8 || type == ComponentType::kUint16 ||
-                           type == ComponentType::kUint32;
-  if (!accessor.is_known_type || accessor.componentCount() != 1 || accessor.normalized ||
-      !is_unsigned) {
+  if (!isOfIndices(accessor) || accessor.normalized) {
     return issues.add(rule::kIndices, path, "indices must be SCALAR of an unsigned type");
   }
-  // The largest value of a type is not a valid index: it restarts strips.
-  const bool fits = type == ComponentType::kUint32 ||
-                    (type == ComponentType::kUint16 && piece.wedge_count <= 0xffff) ||
-                    (type == ComponentType::kUint8 && piece.wedge_count <= 0xff);
-  if (!fits) {
+  if (!holdsIndices(accessor.component_type, piece.wedge_count)) {
     issues.add(rule::kIndexRange, path + "/componentType",
                "cannot hold indices of " + std::to_string(piece.wedge_count) + " vertices");
   }

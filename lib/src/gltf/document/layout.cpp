@@ -21,10 +21,8 @@ struct Block {
 template <typename Visit>
 void visitOldViews(const Document& document, const Json& json, const Visit& visit) {
   visitViewReferences(json, [&](const Json& number, uint32_t accessor) {
-    uint64_t view = 0;
-    if (asUnsigned(number, view) && view < document.views.size()) {
-      visit(static_cast<uint32_t>(view), accessor);
-    }
+    const uint32_t view = indexOf(&number, document.views.size());
+    if (view != kNone) visit(view, accessor);
   });
 }
 
@@ -166,11 +164,8 @@ class LayoutBuilder {
   }
 
   void moveOffset(Json& object, uint64_t old_offset) {
-    uint64_t view = 0;
-    if (!asUnsigned(findMember(object, "bufferView"), view) || view >= document_.views.size() ||
-        ranges_[view].empty() || is_whole_[view]) {
-      return;
-    }
+    const uint32_t view = indexOf(findMember(object, "bufferView"), document_.views.size());
+    if (view == kNone || ranges_[view].empty() || is_whole_[view]) return;
     const BufferView& from = document_.views[view];
     const uint64_t begin = kept_[view].begin;
     const uint64_t offset =
@@ -275,20 +270,13 @@ class LayoutBuilder {
       }
     }
     for (size_t k = 0; k < new_views_.size(); ++k) {
-      views[numbers_[old_count + k]] = jsonOf(new_views_[k], layout_.offsets[k]);
+      views[numbers_[old_count + k]] = new_views_[k].json(0, layout_.offsets[k]);
     }
     if (views.empty()) {
       json_.erase("bufferViews");
     } else {
       json_["bufferViews"] = std::move(views);
     }
-  }
-
-  static Json jsonOf(const NewView& view, uint64_t offset) {
-    Json json = {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", view.byte_count}};
-    if (view.stride_bytes != 0) json["byteStride"] = view.stride_bytes;
-    if (view.target != 0) json["target"] = view.target;
-    return json;
   }
 
   void writeBuffers() {
@@ -414,6 +402,13 @@ std::vector<ByteRange> accessorRanges(const Document& document, uint32_t index, 
   return ranges;
 }
 
+Json NewView::json(uint64_t buffer, uint64_t offset) const {
+  Json json = {{"buffer", buffer}, {"byteOffset", offset}, {"byteLength", byte_count}};
+  if (stride_bytes != 0) json["byteStride"] = stride_bytes;
+  if (target != 0) json["target"] = target;
+  return json;
+}
+
 void Layout::copyTo(std::span<uint8_t> buffer) const {
   for (const Run& run : runs) {
     std::copy(run.bytes.begin(), run.bytes.end(),
@@ -468,24 +463,23 @@ class ContentsWalk {
   }
 
  private:
-  void addView(uint64_t index) {
+  void addView(uint32_t index) {
     if (index >= document_.views.size()) return;
     ranges_.push_back(viewRange(document_, index));
   }
 
   /// Adds the bytes that an accessor uses; of a coded view they are not known one by one.
-  void addAccessor(uint64_t index) {
+  void addAccessor(uint32_t index) {
     if (index >= document_.accessors.size() || !known_.insert(index).second) return;
     const Accessor& accessor = document_.accessors[index];
     // Its range is not known, or was not checked.
     if (!accessor.is_known_type || !accessor.fault.ok()) return addView(accessor.view);
-    const auto ranges = accessorRanges(document_, static_cast<uint32_t>(index), false);
+    const auto ranges = accessorRanges(document_, index, false);
     ranges_.insert(ranges_.end(), ranges.begin(), ranges.end());
   }
 
   void addViewOf(const Json* object) {
-    uint64_t index = 0;
-    if (asUnsigned(findMember(object, "bufferView"), index)) addView(index);
+    addView(indexOf(findMember(object, "bufferView"), document_.views.size()));
   }
 
   void addGeometry() {
@@ -519,8 +513,7 @@ class ContentsWalk {
     result_.animation_count = static_cast<uint32_t>(arrayOf(document_.json, "animations").size());
     for (const std::string_view path : kAnimationAccessors) {
       visitPath(&document_.json, path, [&](const Json& number) {
-        uint64_t index = 0;
-        if (asUnsigned(number, index)) addAccessor(index);
+        addAccessor(indexOf(&number, document_.accessors.size()));
       });
     }
   }
@@ -536,7 +529,7 @@ class ContentsWalk {
   const Document& document_;
   Contents result_;
   std::vector<ByteRange> ranges_;  ///< of everything that was added
-  std::set<uint64_t> known_;       ///< accessors that were added
+  std::set<uint32_t> known_;       ///< accessors that were added
   uint64_t data_uri_bytes_ = 0;
 };
 

@@ -65,6 +65,8 @@ struct NewView {
     bytes = content.data();
     byte_count = content.size();
   }
+  /// Returns its JSON for a place in a buffer.
+  Json json(uint64_t buffer, uint64_t offset) const;
 };
 
 /// Where everything in the buffer is.

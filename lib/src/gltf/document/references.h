@@ -55,6 +55,12 @@ bool visitPath(J* json, std::string_view path, const Visit& visit) {
   return is_of_kind;
 }
 
+/// Returns a number that is one of `count` elements; kNone for all other values, and for null.
+inline uint32_t indexOf(const Json* number, size_t count) {
+  uint64_t index = 0;
+  return asUnsigned(number, index) && index < count ? static_cast<uint32_t>(index) : kNone;
+}
+
 /// Returns an extension of an object, or null.
 inline const Json* extensionOf(const Json& object, std::string_view name) {
   const Json* extensions = findMember(object, "extensions");

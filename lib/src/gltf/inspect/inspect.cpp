@@ -8,7 +8,6 @@
 #include "gltf/check/prove.h"
 #include "gltf/compress/quality.h"
 #include "gltf/decompress/decompress.h"
-#include "gltf/document/payload.h"
 #include "gltf/files/file_io.h"
 #include "gltf/inspect/report_json.h"
 #include "host/parallel.h"

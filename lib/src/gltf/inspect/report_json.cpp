@@ -30,12 +30,12 @@ void addCounts(const EncodedPayload& payload, PayloadReport& report) {
     const PiecePlan& piece = payload.plan.pieces[i];
     const PieceResult& result = payload.result.pieces[i];
     report.wedge_count += piece.wedge_count;
+    report.triangle_count += piece.triangleCount();
     report.vertex_count += result.topological_vertex_count;
     report.component_count += result.component_count;
     report.hole_count += result.hole_count;
     report.cut_copy_count += result.cut_copy_count;
     report.leftover_triangle_count += result.leftover_triangle_count;
-    for (const PartPlan& part : piece.parts) report.triangle_count += part.triangles.size() / 3;
   }
 }
 
@@ -65,27 +65,21 @@ void addPrimitives(const Document& document, const Compressed& compressed, Conve
       report.remarks.push_back(at("/meshes", compressed.payloads[i].plan.mesh) +
                                ": is not cut into blocks: " + result.whole_because);
     }
-    for (const PiecePlan& piece : compressed.payloads[i].plan.pieces) {
-      for (const PartPlan& part : piece.parts) {
-        for (const PrimitiveRef& user : part.users) {
-          PrimitiveReport& row = known[user];
-          row.compressed = true;
-          row.payload = i;
-          row.triangle_count = part.triangles.size() / 3;
-          row.wedge_count = piece.wedge_count;
-        }
-      }
-    }
+    const PayloadPlan& plan = compressed.payloads[i].plan;
+    plan.visitUsers([&](size_t piece, size_t part, const PrimitiveRef& user) {
+      PrimitiveReport& row = known[user];
+      row.compressed = true;
+      row.payload = i;
+      row.triangle_count = plan.pieces[piece].parts[part].triangles.size() / 3;
+      row.wedge_count = plan.pieces[piece].wedge_count;
+    });
   }
   for (const EncodedPayload& preview : compressed.previews) {
     report.preview_bytes += preview.result.payload.size();
-    for (const PiecePlan& piece : preview.plan.pieces) {
-      for (const PartPlan& part : piece.parts) {
-        for (const PrimitiveRef& user : part.users) {
-          known[user].preview_triangle_count = part.triangles.size() / 3;
-        }
-      }
-    }
+    preview.plan.visitUsers([&](size_t piece, size_t part, const PrimitiveRef& user) {
+      const PartPlan& coarse = preview.plan.pieces[piece].parts[part];
+      known[user].preview_triangle_count = coarse.triangles.size() / 3;
+    });
   }
   for (const LeftAlone& left : compressed.left_alone) {
     known[left.primitive].note = left.note;
