@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "tiles/tile_uri.h"
 
-#include "gltf/document/uri.h"
+#include "gltf/document/package.h"
 #include "host/result.h"
 #include "host/text.h"
 #include "tiles/file_table.h"

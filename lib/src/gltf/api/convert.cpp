@@ -18,7 +18,7 @@
 #include "gltf/decompress/coded_input.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/layout.h"
-#include "gltf/document/uri.h"
+#include "gltf/document/package.h"
 #include "gltf/files/destination.h"
 #include "gltf/files/file_io.h"
 #include "host/parallel.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf/compress/encode.h"
+#include "gltf/compress/compress.h"
 #include "mcc/glb.h"
 #include "mcc/reader.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf/compress/encode.h"
+#include "gltf/compress/compress.h"
 #include "mcc/glb.h"
 
 namespace mcc::gltf {

@@ -335,17 +335,15 @@ void countFreedBytes(const Document& document, std::vector<EncodedPayload>& payl
 
 Result dropTinyPieces(const Document& document, const ConvertOptions& options,
                       std::vector<PayloadPlan>& plans, std::vector<LeftAlone>& left_alone) {
-  std::vector<const PayloadPlan*> all;
   std::vector<OwnedPiece> pieces;
+  std::vector<const PayloadPlan*> plan_of;
   for (const PayloadPlan& plan : plans) {
-    all.push_back(&plan);
     for (const PiecePlan& piece : plan.pieces) pieces.push_back({&piece, pieces.size()});
+    plan_of.resize(pieces.size(), &plan);
   }
   const ByteOwners owners =
-      ownersOf(document, accessorsInOtherUse(document, all), pieces, pieces.size());
+      ownersOf(document, accessorsInOtherUse(document, plansOf(plans)), pieces, pieces.size());
   const std::vector<uint64_t>& freed = owners.freed();
-  std::vector<const PayloadPlan*> plan_of;
-  for (const PayloadPlan& plan : plans) plan_of.insert(plan_of.end(), plan.pieces.size(), &plan);
   std::vector<uint64_t> bytes_alone(pieces.size(), 0);
   MCC_GLTF_TRY(runParallel(pieces.size(), options.thread_count, [&](size_t i) -> Result {
     const bool is_small = plan_of[i]->pieces.size() > 1 && freed[i] < kSmallPieceBytes;

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "gltf/compress/encode.h"
+#include "gltf/compress/compress.h"
 #include "gltf/compress/plan.h"
 #include "mcc/glb.h"
 

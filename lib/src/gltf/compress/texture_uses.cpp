@@ -7,7 +7,6 @@
 
 #include "gltf/document/package.h"
 #include "gltf/document/references.h"
-#include "gltf/document/uri.h"
 
 namespace mcc::gltf {
 namespace {

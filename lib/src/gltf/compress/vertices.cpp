@@ -16,9 +16,7 @@ namespace {
 /// Marks accessors that more than one piece uses, or a piece and something else.
 std::vector<bool> sharedAccessors(const Document& document,
                                   const std::vector<PayloadPlan>& payloads) {
-  std::vector<const PayloadPlan*> all;
-  for (const PayloadPlan& payload : payloads) all.push_back(&payload);
-  std::vector<bool> is_shared = accessorsOutsidePayloads(document, all);
+  std::vector<bool> is_shared = accessorsOutsidePayloads(document, plansOf(payloads));
   std::vector<const PiecePlan*> user(is_shared.size(), nullptr);  // the first user
   for (const PayloadPlan& payload : payloads) {
     for (const PiecePlan& piece : payload.pieces) {
@@ -87,10 +85,7 @@ void reorderAttributes(const Document& document, const PiecePlan& piece,
     NewView view;
     view.target = kArrayBuffer;
     view.hold(packAttribute(tight, accessor, view.stride_bytes));
-    Json& edited = accessors[attribute.accessor];
-    edited.erase("byteOffset");
-    edited["bufferView"] = kFirstNewView + views.size();
-    views.push_back(std::move(view));
+    addView(std::move(view), accessors[attribute.accessor], views);
   }
 }
 
@@ -203,15 +198,12 @@ void renumberVertices(const Document& document, const PiecePlan& piece,
     for (uint32_t& number : numbers) number = decoded_wedge[number];
     NewView view;
     view.hold(narrowIndices(numbers, componentBytes(accessor.component_type)));
-    Json& edited = accessors[index];
-    edited.erase("byteOffset");
-    edited["bufferView"] = kFirstNewView + views.size();
     uint64_t target = 0;
     if (asUnsigned(findMember(old_views[accessor.view], "target"), target) && target <= kNone) {
       view.target = static_cast<uint32_t>(target);
     }
-    setBounds(boundsOf(numbers), ComponentType::kUint32, false, edited);
-    views.push_back(std::move(view));
+    setBounds(boundsOf(numbers), ComponentType::kUint32, false, accessors[index]);
+    addView(std::move(view), accessors[index], views);
   }
 }
 

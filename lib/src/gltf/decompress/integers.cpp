@@ -639,14 +639,13 @@ class PositionStore {
     }
     skin["inverseBindMatrices"] = accessor;
     Json& json = (*all_accessors_)[accessor];
-    for (const char* key : {"byteOffset", "sparse", "min", "max"}) json.erase(key);
-    json["bufferView"] = kFirstNewView + views_.size();
+    for (const char* key : {"sparse", "min", "max"}) json.erase(key);
     json["count"] = matrices.size() / 16;
     NewView view;
     std::vector<uint8_t> bytes(4 * matrices.size());
     std::memcpy(bytes.data(), matrices.data(), bytes.size());
     view.hold(std::move(bytes));
-    views_.push_back(std::move(view));
+    addView(std::move(view), json, views_);
     if (in_place) {
       (*skins_)[number] = std::move(skin);
       return number;

@@ -9,7 +9,6 @@
 
 #include "gltf/document/package.h"
 #include "gltf/document/references.h"
-#include "gltf/document/uri.h"
 #include "mcc/decoded_limit.h"
 #include "mcc/glb.h"
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "gltf/document/uri.h"
+#include "gltf/document/package.h"
 
 namespace mcc::gltf {
 namespace {

@@ -69,6 +69,13 @@ struct NewView {
   Json json(uint64_t buffer, uint64_t offset) const;
 };
 
+/// Adds a view, and makes an accessor read it from its beginning.
+inline void addView(NewView view, Json& accessor, std::vector<NewView>& views) {
+  accessor.erase("byteOffset");
+  accessor["bufferView"] = kFirstNewView + views.size();
+  views.push_back(std::move(view));
+}
+
 /// Where everything in the buffer is.
 struct Layout {
   /// Bytes that exist already, of the source or of a new view.

@@ -8,7 +8,7 @@
 #include <optional>
 #include <system_error>
 
-#include "gltf/document/uri.h"
+#include "gltf/document/package.h"
 #include "host/system.h"
 #include "host/text.h"
 
