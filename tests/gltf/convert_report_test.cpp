@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "gltf/inspect/report_json.h"
+#include "gltf/inspect/report.h"
 #include "gltf/round_trip.h"
 
 namespace mcc::gltf::test {

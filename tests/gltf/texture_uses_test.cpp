@@ -1,5 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-#include "gltf/compress/texture_uses.h"
+#include "gltf/compress/quality.h"
 
 #include <gtest/gtest.h>
 

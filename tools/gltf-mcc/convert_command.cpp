@@ -15,7 +15,7 @@
 #include "file_roles.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
-#include "gltf/inspect/report_json.h"
+#include "gltf/inspect/report.h"
 #include "host/text.h"
 #include "in_out.h"
 #include "interrupt.h"

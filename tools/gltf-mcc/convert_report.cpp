@@ -7,7 +7,7 @@
 #include <set>
 
 #include "convert_summary.h"
-#include "gltf/inspect/report_json.h"
+#include "gltf/inspect/report.h"
 #include "host/text.h"
 #include "notes.h"
 

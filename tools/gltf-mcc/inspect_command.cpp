@@ -6,7 +6,7 @@
 #include "bars.h"
 #include "commands.h"
 #include "gltf/files/file_io.h"
-#include "gltf/inspect/report_json.h"
+#include "gltf/inspect/report.h"
 #include "host/text.h"
 #include "plain_report.h"
 #include "progress_line.h"

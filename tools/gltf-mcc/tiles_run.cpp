@@ -12,7 +12,7 @@
 #include "gltf/api/convert.h"
 #include "gltf/document/package.h"
 #include "gltf/files/file_io.h"
-#include "gltf/inspect/report_json.h"
+#include "gltf/inspect/report.h"
 #include "host/parallel.h"
 #include "host/result.h"
 #include "host/system.h"

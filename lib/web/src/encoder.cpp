@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "coded_views.h"
-#include "gltf/inspect/report_json.h"
+#include "gltf/inspect/report.h"
 #include "json/json.h"
 #include "mcc/glb.h"
 

@@ -10,7 +10,7 @@
 
 #include "base/c_struct.h"
 #include "gltf/api/convert.h"
-#include "gltf/inspect/report_json.h"
+#include "gltf/inspect/report.h"
 #include "json/json.h"
 #include "mcc/files.h"
 

@@ -2,7 +2,7 @@
 //
 // Implements the public functions: load, compress or decompress, write, check.
 #include "gltf/api/convert.h"
-#include "gltf/inspect/report_json.h"
+#include "gltf/inspect/report.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,8 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Builds the report of a conversion, and prints reports as JSON.
-#ifndef MCC_GLTF_INSPECT_REPORT_JSON_H_
-#define MCC_GLTF_INSPECT_REPORT_JSON_H_
+// Builds the reports of a conversion and of what is inside a compressed file, for inspectGlb() and
+// inspectFile(), and prints both as JSON.
+#ifndef MCC_GLTF_INSPECT_REPORT_H_
+#define MCC_GLTF_INSPECT_REPORT_H_
 
 #include <cstdint>
 #include <string>
@@ -47,4 +48,4 @@ std::string predictorName(AttributeInfos attributes, uint32_t index);
 
 }  // namespace mcc::gltf
 
-#endif  // MCC_GLTF_INSPECT_REPORT_JSON_H_
+#endif  // MCC_GLTF_INSPECT_REPORT_H_
