@@ -235,13 +235,9 @@ class Checker {
     if (!bounds.is_finite || !with_bounds_.insert(index).second) return {};
     const Json& json = arrayOf(written_.json, "accessors")[index];
     const ComponentType type = written_.accessors[index].component_type;
-    const Json* min = findMember(json, "min");
-    const Json* max = findMember(json, "max");
-    const std::string in_min = min == nullptr ? "" : boundsDifference(*min, bounds.min, type);
-    const std::string in_max = max == nullptr ? "" : boundsDifference(*max, bounds.max, type);
-    if (!in_min.empty()) return error(at("/accessors", index) + "/min", in_min);
-    if (!in_max.empty()) return error(at("/accessors", index) + "/max", in_max);
-    return {};
+    const std::string path = at("/accessors", index);
+    MCC_GLTF_TRY(checkBound(json, "min", bounds.min, type, path));
+    return checkBound(json, "max", bounds.max, type, path);
   }
 
   /// Checks that what the source had compressed already has the same payloads, and takes it out of
@@ -292,10 +288,8 @@ class Checker {
       MCC_GLTF_TRY(readAccessor(written_, filled.accessor, fallback));
       readElements(written_.accessors[filled.accessor], elements[filled.view].data(),
                    views[filled.view].stride_bytes, decoded);
-      for (uint64_t i = 0; i < decoded.count; ++i) {
-        if (std::ranges::equal(fallback.element(i), decoded.element(i))) continue;
+      if (fallback.firstDifference(decoded) != decoded.count)
         return error(at("/accessors", filled.accessor), "the fallback differs from the payload");
-      }
     }
     return {};
   }

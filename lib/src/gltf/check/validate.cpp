@@ -2,7 +2,6 @@
 //
 // Finds everything that is wrong with the compressed parts of a file.
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <set>
@@ -283,17 +282,11 @@ class Validator {
     }
     if (min != nullptr || max != nullptr) {
       const Bounds bounds = boundsOf(tight, accessor.component_type, accessor.componentCount());
-      checkBounds(min, bounds.min, accessor.component_type, path + "/min");
-      checkBounds(max, bounds.max, accessor.component_type, path + "/max");
+      const ComponentType type = accessor.component_type;
+      issues_.passes(rule::kBounds, checkBound(json, "min", bounds.min, type, path));
+      issues_.passes(rule::kBounds, checkBound(json, "max", bounds.max, type, path));
     }
     if (hasElements(json)) checkFallback(number, tight);
-  }
-
-  void checkBounds(const Json* declared, const std::vector<double>& decoded, ComponentType type,
-                   const std::string& path) {
-    if (declared == nullptr) return;
-    const std::string difference = boundsDifference(*declared, decoded, type);
-    if (!difference.empty()) issues_.add(rule::kBounds, path, difference);
   }
 
   void checkFallback(uint32_t number, std::span<const uint8_t> tight) {
@@ -304,12 +297,11 @@ class Validator {
       return issues_.add(rule::kFallbackLoaded, path, "its fallback could not be loaded");
     }
     if (!issues_.passes(rule::kFallbackLoaded, readAccessor(document_, number, elements))) return;
-    for (uint64_t i = 0; i < elements.count; ++i) {
-      const std::span<const uint8_t> element = elements.element(i);
-      if (std::memcmp(element.data(), &tight[i * element.size()], element.size()) == 0) continue;
+    const uint64_t i =
+        elements.firstDifference(AccessorData::packed(tight, elements.element_bytes));
+    if (i != elements.count) {
       issues_.add(rule::kFallbackElements, path,
                   "element " + std::to_string(i) + " of the fallback differs from the decoded one");
-      break;
     }
     if (accessor.view == kNone) return;
     if (!payload_buffers_.contains(document_.views[accessor.view].buffer)) return;

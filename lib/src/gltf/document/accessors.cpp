@@ -84,6 +84,12 @@ void copyElements(const Accessor& accessor, const uint8_t* bytes, uint64_t strid
 
 }  // namespace
 
+uint64_t AccessorData::firstDifference(const AccessorData& other) const {
+  uint64_t i = 0;
+  while (i < count && std::ranges::equal(element(i), other.element(i))) ++i;
+  return i;
+}
+
 std::string whyUnreadable(const Document& document, const Accessor& accessor) {
   if (!accessor.fault.ok()) return "cannot be read (" + accessor.fault.message() + ")";
   if (!accessor.is_known_type) return "the type or component type is unknown";
@@ -312,22 +318,24 @@ void setBounds(const Bounds& bounds, ComponentType type, bool is_required, Json&
   }
 }
 
-std::string boundsDifference(const Json& declared, const std::vector<double>& decoded,
-                             ComponentType type) {
-  if (!declared.is_array() || declared.size() != decoded.size()) {
-    return "must be an array of " + std::to_string(decoded.size()) + " numbers";
+Result checkBound(const Json& accessor, const char* key, const std::vector<double>& decoded,
+                  ComponentType type, const std::string& path) {
+  const Json* const declared = findMember(accessor, key);
+  if (declared == nullptr) return {};
+  const std::string where = at(path, key);
+  if (!declared->is_array() || declared->size() != decoded.size()) {
+    return error(where, "must be an array of " + std::to_string(decoded.size()) + " numbers");
   }
   for (size_t i = 0; i < decoded.size(); ++i) {
     double value = 0;
     if (!std::isfinite(decoded[i])) continue;
-    if (!asNumber(declared[i], value)) return "must be an array of numbers";
+    if (!asNumber((*declared)[i], value)) return error(where, "must be an array of numbers");
     if (type == ComponentType::kFloat32) value = static_cast<float>(value);
-    if (value != decoded[i]) {
-      return "component " + std::to_string(i) + " is " + printJson(declared[i]) + ", but " +
-             printJson(Json(decoded[i])) + " for the decoded elements";
-    }
+    if (value == decoded[i]) continue;
+    return error(where, "component " + std::to_string(i) + " is " + printJson((*declared)[i]) +
+                            ", but " + printJson(Json(decoded[i])) + " for the decoded elements");
   }
-  return "";
+  return {};
 }
 
 }  // namespace mcc::gltf

@@ -29,6 +29,9 @@ struct AccessorData {
   std::span<const uint8_t> element(uint64_t index) const {
     return {data + index * stride_bytes, element_bytes};
   }
+  /// Returns the number of the first element that differs from the one of `other`, which has as
+  /// many; `count` if none does.
+  uint64_t firstDifference(const AccessorData& other) const;
 };
 
 /// Returns why the elements of an accessor cannot be read: its type is unknown, or its bytes are
@@ -111,10 +114,10 @@ Json boundNumbers(const std::vector<double>& values, ComponentType type);
 /// Writes finite bounds into an accessor: both when `is_required`, else only those it already has.
 void setBounds(const Bounds& bounds, ComponentType type, bool is_required, Json& accessor);
 
-/// Returns how `min` or `max` of an accessor differs from the decoded values; empty when it does
-/// not. Bounds that JSON cannot represent may be missing.
-std::string boundsDifference(const Json& declared, const std::vector<double>& decoded,
-                             ComponentType type);
+/// Compares the member `key` of the accessor at `path`, which is "min" or "max" and may be missing,
+/// with that bound of the decoded elements. One that JSON cannot represent may be anything.
+Result checkBound(const Json& accessor, const char* key, const std::vector<double>& decoded,
+                  ComponentType type, const std::string& path);
 
 }  // namespace mcc::gltf
 

@@ -279,11 +279,12 @@ Result containerOf(const std::string& file_name, Container& container) {
   container.is_gltf = endingOf(file_name) == ".gltf";
   container.file_name = file_name;
   container.stem = dot == 0 ? file_name : file_name.substr(0, dot);
-  const std::string buffer_name = container.stem + ".bin";
-  if (container.is_gltf && !isUsableName(buffer_name)) {
-    return error(file_name, "no URI can name a file \"" + buffer_name + "\"; choose another name");
-  }
-  return {};
+  return container.is_gltf ? checkName(container.stem + ".bin", file_name) : Result();
+}
+
+Result checkName(const std::string& name, const std::string& where) {
+  if (isUsableName(name)) return {};
+  return error(where, "no URI can name a file \"" + name + "\"; choose another name");
 }
 
 std::string nameOfMade(const Container& container, SideFile::Kind kind,

@@ -95,6 +95,9 @@ bool isNameOfMade(const Container& container, std::string_view name);
 /// GLBs. Errors: a file next to it would have a name that no URI can express.
 Result containerOf(const std::string& file_name, Container& container);
 
+/// Checks that a URI can name a file next to the main one.
+Result checkName(const std::string& name, const std::string& where);
+
 /// Buffer 0 of a document.
 struct BufferContent {
   uint64_t byte_count = 0;

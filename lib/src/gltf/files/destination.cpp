@@ -80,10 +80,8 @@ std::vector<fs::path> Destination::madeFiles() const {
 Result Destination::check(bool with_fallback) {
   MCC_GLTF_TRY(main_.check());
   MCC_GLTF_TRY(containerOf(textOf(main_path_.filename()), container_));
-  const std::string fallback = container_.stem + ".fallback.bin";
-  if (!with_fallback || isUsableName(fallback)) return {};
-  return error(textOf(main_path_),
-               "no URI can name a file \"" + fallback + "\"; choose another name");
+  if (!with_fallback) return {};
+  return checkName(container_.stem + ".fallback.bin", textOf(main_path_));
 }
 
 Result Destination::checkSource(const fs::path& source, const Json& json) {
