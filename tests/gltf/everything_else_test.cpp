@@ -84,12 +84,10 @@ void visitObjects(Json& json, const std::string& path,
                   const std::function<void(Json&, const std::string&)>& visit) {
   const bool is_map = path.ends_with("/attributes") ||
                       path.find("/targets/") != std::string::npos || path.ends_with("/extensions");
-  if (json.is_array()) {
-    for (size_t i = 0; i < json.size(); ++i) visitObjects(json[i], at(path, i), visit);
-  } else if (json.is_object()) {
-    for (const auto& [key, value] : json.items()) visitObjects(value, at(path, key), visit);
-    if (!is_map) visit(json, path);
+  for (size_t i = 0; i < json.size(); ++i) {
+    visitObjects(json[i], json.is_array() ? at(path, i) : at(path, json.keyAt(i)), visit);
   }
+  if (json.is_object() && !is_map) visit(json, path);
 }
 
 /// Members in which a file with compressed or decoded geometry may differ from its source.

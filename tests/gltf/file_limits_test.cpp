@@ -58,9 +58,7 @@ std::vector<uint8_t> multiplied(std::span<const uint8_t> file, size_t n) {
     for (const Json& accessor : accessors) json["accessors"].push_back(accessor);
     Json primitive = first;
     primitive["indices"] = offset + first["indices"].get<size_t>();
-    for (auto&& [name, number] : primitive["attributes"].items()) {
-      number = offset + number.get<size_t>();
-    }
+    for (Json& number : primitive["attributes"]) number = offset + number.get<size_t>();
     if (primitives.size() % 2 == 1) {
       primitive["extensions"][kExtensionName]["bufferView"] = json["bufferViews"].size() - 1;
     }

@@ -94,7 +94,7 @@ TEST(LinearTime, KeysOfOneObject) {
     b.append("key " + std::to_string(i), i);
   }
   EXPECT_EQ(firstDifference(a, b), "");
-  b.front() = 0;
+  b[0] = 0;
   EXPECT_EQ(firstDifference(a, b), "/key 199999");
   Json parsed;
   EXPECT_TRUE(parseJson(asBytes(printJson(a)), parsed).ok());

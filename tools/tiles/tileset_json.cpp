@@ -8,14 +8,12 @@
 #include "gltf/files/file_io.h"
 #include "host/result.h"
 #include "host/text.h"
-#include "json/json_scanner.h"
-#include "json/numbers.h"
+#include "json/json.h"
 
 namespace mcc::tiles {
 namespace {
 
-using gltf::JsonScanner;
-using gltf::JsonToken;
+using gltf::Json;
 using gltf::Result;
 using Place = TilesetJson::ContentPlace;
 
@@ -38,18 +36,45 @@ enum class Scope : uint8_t {
 
 /// The number of an element of `children` or of a list of contents counts elements of every kind,
 /// so that paths in messages are right.
-class TilesetReader {
+class TilesetReader : public gltf::JsonListener {
  public:
-  TilesetReader(JsonScanner& scanner, uint64_t max_tiles, TilesetJson& out)
-      : scanner_(scanner), max_tiles_(max_tiles), out_(out) {}
+  TilesetReader(uint64_t max_tiles, TilesetJson& out) : max_tiles_(max_tiles), out_(out) {}
 
-  Result read() {
-    JsonToken token = scanner_.next();
-    for (; token != JsonToken::kEnd && token != JsonToken::kError; token = scanner_.next()) {
-      take(token);
-      if (!result_.ok()) return result_;
+  Result begin(Json::Kind kind, uint64_t byte) override {
+    if (kind == Json::Kind::kArray) {
+      beginArray();
+    } else {
+      beginObject();
+      if (inner() == Scope::kSchema) out_.schema_begin = byte;
     }
-    return token == JsonToken::kEnd ? Result() : scanner_.error();
+    return result_;
+  }
+
+  Result end(uint64_t byte) override {
+    switch (inner()) {
+      case Scope::kTile: open_tiles_.pop_back(); break;
+      case Scope::kSchema: out_.schema_end = byte; break;
+      case Scope::kTransform: endTransform(); break;
+      default: break;
+    }
+    scopes_.pop_back();
+    return result_;
+  }
+
+  Result key(std::string key) override {
+    key_ = std::move(key);
+    return result_;
+  }
+
+  Result value(Json value) override {
+    if (value.is_string()) {
+      string(value.text());
+    } else if (value.is_number()) {
+      number(value.get<double>());
+    } else {
+      wrongValue();
+    }
+    return result_;
   }
 
  private:
@@ -58,22 +83,6 @@ class TilesetReader {
     uint32_t tile = 0;
     uint32_t child_count = 0;
   };
-
-  void take(JsonToken token) {
-    switch (token) {
-      case JsonToken::kKey: key_ = scanner_.text(); break;
-      case JsonToken::kObject: beginObject(); break;
-      case JsonToken::kObjectEnd: endObject(); break;
-      case JsonToken::kArray: beginArray(); break;
-      case JsonToken::kArrayEnd:
-        if (inner() == Scope::kTransform) endTransform();
-        scopes_.pop_back();
-        break;
-      case JsonToken::kString: string(scanner_.text()); break;
-      case JsonToken::kNumber: number(gltf::numberOf(scanner_.text())); break;
-      default: wrongValue(); break;
-    }
-  }
 
   void beginObject() {
     Scope scope = Scope::kIgnored;
@@ -98,12 +107,6 @@ class TilesetReader {
         break;
     }
     scopes_.push_back(scope);
-  }
-
-  void endObject() {
-    if (inner() == Scope::kTile) open_tiles_.pop_back();
-    if (inner() == Scope::kSchema) out_.schema_end = scanner_.position();
-    scopes_.pop_back();
   }
 
   void beginArray() {
@@ -142,10 +145,7 @@ class TilesetReader {
 
   Scope objectOfTop() {
     if (key_ == "asset") return Scope::kAsset;
-    if (key_ == "schema") {
-      out_.schema_begin = scanner_.position() - 1;
-      return Scope::kSchema;
-    }
+    if (key_ == "schema") return Scope::kSchema;
     if (key_ != "root") return Scope::kIgnored;
     if (out_.tiles.empty()) return newTile();
     result_ = gltf::error("/root", "is there twice; readers differ in which of the two counts");
@@ -295,7 +295,6 @@ class TilesetReader {
     out_.wrong_places.push_back({open_tiles_.back().tile, member, what});
   }
 
-  JsonScanner& scanner_;
   const uint64_t max_tiles_;
   TilesetJson& out_;
   Result result_;
@@ -309,44 +308,36 @@ class TilesetReader {
   bool is_transform_wrong_ = false;
 };
 
-/// Reads a file in parts. Borrows it.
-class FileParts {
- public:
-  explicit FileParts(gltf::NamedFile& file) : file_(file), part_(size_t{1} << 16) {}
+/// Returns a file in parts. Borrows it.
+gltf::JsonParts partsOf(gltf::NamedFile& file) {
+  return [&file, part = std::vector<char>(size_t{1} << 16)]() mutable {
+    return std::string_view(part.data(), file.readSome(part.data(), part.size()));
+  };
+}
 
-  static std::string_view next(void* self) {
-    auto& [file, part] = *static_cast<FileParts*>(self);
-    return {part.data(), file.readSome(part.data(), part.size())};
+/// Looks for the object `root` of a document, and ends the text as soon as it is there.
+class RootFinder : public gltf::JsonListener {
+ public:
+  bool has_root = false;
+
+  Result begin(Json::Kind kind, uint64_t) override {
+    has_root = depth_++ == 1 && kind == Json::Kind::kObject && key_ == "root";
+    return has_root ? gltf::error("/root", "is there") : Result();
   }
+  Result end(uint64_t) override {
+    --depth_;
+    return key("");
+  }
+  Result key(std::string key) override {
+    key_ = std::move(key);
+    return {};
+  }
+  Result value(Json) override { return key(""); }
 
  private:
-  gltf::NamedFile& file_;
-  std::vector<char> part_;
+  uint64_t depth_ = 0;
+  std::string key_;  ///< of the value that comes next
 };
-
-/// Looks for the object `root` of a document, and stops as soon as it is there.
-bool hasRoot(JsonScanner& scanner) {
-  uint64_t depth = 0;
-  bool is_root = false;
-  while (true) {
-    switch (scanner.next()) {
-      case JsonToken::kKey: is_root = depth == 1 && scanner.text() == "root"; continue;
-      case JsonToken::kObject:
-        if (is_root) return true;
-        ++depth;
-        continue;
-      case JsonToken::kArray: ++depth; break;
-      case JsonToken::kObjectEnd:
-      case JsonToken::kArrayEnd: --depth; break;
-      case JsonToken::kEnd:
-      case JsonToken::kError: return false;
-      default:
-        if (depth == 0) return false;
-        break;
-    }
-    is_root = false;
-  }
-}
 
 }  // namespace
 
@@ -380,9 +371,8 @@ Result readTilesetJson(const std::filesystem::path& folder, const std::string& n
   const std::filesystem::path path = folder / gltf::pathOf(name);
   gltf::NamedFile opened;
   MCC_GLTF_TRY(gltf::inFile(path, opened.open(folder, name)));
-  FileParts parts(opened);
-  JsonScanner scanner(&FileParts::next, &parts);
-  MCC_GLTF_TRY(gltf::inFile(path, TilesetReader(scanner, max_tiles, tileset).read()));
+  TilesetReader reader(max_tiles, tileset);
+  MCC_GLTF_TRY(gltf::inFile(path, gltf::scanJson(partsOf(opened), reader)));
   if (!tileset.tiles.empty()) return {};
   return gltf::error(gltf::textOf(path), "is not a tileset: it has no root");
 }
@@ -390,9 +380,9 @@ Result readTilesetJson(const std::filesystem::path& folder, const std::string& n
 bool isTilesetFile(const std::filesystem::path& folder, const std::string& name) {
   gltf::NamedFile opened;
   if (!opened.open(folder, name).ok()) return false;
-  FileParts parts(opened);
-  JsonScanner scanner(&FileParts::next, &parts);
-  return hasRoot(scanner);
+  RootFinder finder;
+  (void)gltf::scanJson(partsOf(opened), finder);
+  return finder.has_root;
 }
 
 }  // namespace mcc::tiles

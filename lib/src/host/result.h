@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "json/path.h"
+#include "json/spelling.h"
 #include "mcc/result.h"
 
 namespace mcc::gltf {

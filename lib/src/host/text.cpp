@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "json/utf8.h"
+#include "json/spelling.h"
 
 namespace mcc::gltf {
 namespace {

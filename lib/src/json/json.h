@@ -9,13 +9,14 @@
 #ifndef MCC_JSON_JSON_H_
 #define MCC_JSON_JSON_H_
 
-#include <array>
 #include <compare>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <iosfwd>
+#include <iterator>
 #include <memory>
 #include <set>
 #include <span>
@@ -25,6 +26,7 @@
 #include <utility>
 #include <vector>
 
+#include "json/spelling.h"
 #include "mcc/result.h"
 
 namespace mcc::gltf {
@@ -38,46 +40,45 @@ class Json {
 
   Json() = default;
   Json(std::nullptr_t) {}
-  template <std::integral T>
-  Json(T value) {
+  /// Becomes null unless the value is finite, because JSON has no such numbers.
+  template <class T>
+  requires std::is_arithmetic_v<T> Json(T value)
+      : kind_(std::same_as<T, bool> ? Kind::kBoolean : Kind::kNumber) {
     if constexpr (std::same_as<T, bool>) {
-      kind_ = Kind::kBoolean;
       text_ = value ? "true" : "false";
-    } else {
-      kind_ = Kind::kNumber;
+    } else if constexpr (std::integral<T>) {
       text_ = std::to_string(value);
+    } else {
+      text_ = spellingOf(double{value});
+      if (text_.empty()) kind_ = Kind::kNull;
     }
   }
-  /// Becomes null unless the value is finite, because JSON has no such numbers.
-  template <std::floating_point T>
-  Json(T value) {
-    setNumber(static_cast<double>(value));
-  }
   Json(std::string text) : kind_(Kind::kString), text_(std::move(text)) {}
-  Json(std::string_view text) : kind_(Kind::kString), text_(text) {}
-  Json(const char* text) : kind_(Kind::kString), text_(text) {}
+  Json(std::string_view text) : Json(std::string(text)) {}
+  Json(const char* text) : Json(std::string(text)) {}
+  /// An array of the elements of a container.
   template <class T>
-  Json(const std::vector<T>& values) : Json(rangeOf(values)) {}
-  template <class T>
-  Json(const std::set<T>& values) : Json(rangeOf(values)) {}
-  template <class T, size_t kCount>
-  Json(const std::array<T, kCount>& values) : Json(rangeOf(values)) {}
-  template <class T, size_t kCount>
-  requires(!std::same_as<T, char>) Json(const T (&values)[kCount]) : Json(rangeOf(values)) {}
+  requires(!std::same_as<T, Json> && !std::constructible_from<std::string, const T&> &&
+           requires(const T& values) { std::begin(values); }) Json(const T& values)
+      : Json(array()) {
+    for (const auto& value : values) push_back(value);
+  }
   /// An object if every element is an array of a text and a value; else an array.
   Json(std::initializer_list<Json> elements);
   static Json array(std::initializer_list<Json> elements = {});
   static Json object(std::initializer_list<Json> members = {});
   /// A number with this spelling, which must be one of JSON.
-  static Json number(std::string_view spelling);
+  static Json number(std::string spelling);
   /// Parses a text, see parseJson(). Returns null when it is damaged.
   static Json parse(std::string_view text);
 
   Json(const Json& other) = default;
-  Json(Json&& other) noexcept;
+  Json(Json&& other) noexcept
+      : kind_(std::exchange(other.kind_, Kind::kNull)),
+        text_(std::move(other.text_)),
+        values_(std::move(other.values_)) {}
   /// By value, because json["a"] = json["b"] may move where "b" is.
   Json& operator=(Json other) noexcept;
-  ~Json();
 
   Kind kind() const { return kind_; }
   bool is_null() const { return kind_ == Kind::kNull; }
@@ -93,21 +94,22 @@ class Json {
   /// The value as a number, text or truth; zero, "" or false when it is of another kind.
   template <class T>
   T get() const {
-    if constexpr (std::same_as<T, bool>) {
+    if constexpr (std::same_as<T, Json>) {
+      return *this;
+    } else if constexpr (std::same_as<T, bool>) {
       return is_boolean() && text_ == "true";
     } else if constexpr (std::integral<T>) {
-      return static_cast<T>(wholeNumber());
+      return is_number() ? static_cast<T>(wholeNumberOf(text_)) : 0;
     } else if constexpr (std::floating_point<T>) {
-      return static_cast<T>(realNumber());
+      return is_number() ? static_cast<T>(numberOf(text_)) : 0;
     } else if constexpr (std::same_as<T, std::string>) {
-      return is_string() ? text_ : std::string();
+      return is_string() ? text_ : T();
     } else {
       T values;
       for (const Json& value : *this) values.push_back(value.get<typename T::value_type>());
       return values;
     }
   }
-
   /// The same where a number, a truth or a text is wanted.
   template <class T>
   requires(std::is_arithmetic_v<T> || std::same_as<T, std::string>) operator T() const {
@@ -121,30 +123,27 @@ class Json {
   const Json* end() const { return begin() + size(); }
   size_t size() const { return values_ == nullptr ? 0 : values_->values.size(); }
   bool empty() const { return size() == 0; }
-  Json& front() { return *begin(); }
   Json& back() { return end()[-1]; }
-  const Json& front() const { return *begin(); }
   const Json& back() const { return end()[-1]; }
 
-  /// The element or member with this number, which must be there.
-  template <std::integral T>
-  Json& operator[](T i) {
-    return begin()[i];
+  /// The element or member with this number, which must be there; or the member with this key,
+  /// which is added as null to an object that has none, and null becomes an object.
+  template <class Key>
+  Json& operator[](const Key& key) {
+    return place(key);
   }
   /// The same; null when there is none.
-  template <std::integral T>
-  const Json& operator[](T i) const {
-    return static_cast<size_t>(i) < size() ? begin()[i] : null();
+  template <class Key>
+  const Json& operator[](const Key& key) const {
+    const Json* const found = find(key);
+    return found == end() ? null() : *found;
   }
-  /// The member with this key, which is added as null to an object that has none, and null becomes
-  /// an object; in const JSON it is null.
-  Json& operator[](std::string_view key);
-  const Json& operator[](std::string_view key) const;
-  Json& operator[](const char* key) { return (*this)[std::string_view(key)]; }
-  const Json& operator[](const char* key) const { return (*this)[std::string_view(key)]; }
-  /// The first member with this key, or end().
+  /// The first member with this key, or the value with this number; end() when there is none.
   Json* find(std::string_view key);
   const Json* find(std::string_view key) const;
+  const Json* find(std::integral auto i) const {
+    return static_cast<size_t>(i) < size() ? begin() + i : end();
+  }
   bool contains(std::string_view key) const { return find(key) != end(); }
   /// The member with this key, or `other` when there is none.
   template <class T>
@@ -155,72 +154,49 @@ class Json {
   std::string value(std::string_view key, const char* other) const {
     return value(key, std::string(other));
   }
-  Json value(std::string_view key, const Json& other) const {
-    const Json* const found = find(key);
-    return found == end() ? other : *found;
-  }
 
   /// Adds to the end of an array; null becomes one.
-  void push_back(Json value);
-  template <class... T>
-  Json& emplace_back(T&&... value) {
-    push_back(Json(std::forward<T>(value)...));
-    return back();
-  }
+  void push_back(Json value) { become(Kind::kArray).values.push_back(std::move(value)); }
   /// Adds a member to the end of an object, even if there is one with this key; null becomes an
   /// object.
   Json& append(std::string key, Json value);
   /// Puts the members of another object into this one. They replace those with the same keys.
   void update(const Json& other);
-  /// Gives a member another key. It keeps its place.
-  void rename(std::string_view from, std::string to);
   /// Removes the first member with this key, if there is one, or the elements or members at a
   /// place.
   void erase(std::string_view key);
   void erase(const Json* place) { erase(place, place + 1); }
   void erase(const Json* from, const Json* to);
-  void clear();
 
   /// The key of the member with this number.
   const std::string& keyAt(size_t i) const { return values_->keys[i]; }
-  /// A member for loops: for (const auto& [key, value] : json.items()).
-  template <class Value>
-  struct Item {
-    const std::string& key;
-    Value& value;
+  /// The members for loops: for (const auto& [key, value] : json.items()).
+  struct Items {  ///< is its own iterator
+    const Json* json;
+    size_t i;
+    Items begin() const { return *this; }
+    Items end() const { return {json, json->is_object() ? json->size() : 0}; }
+    std::pair<const std::string&, const Json&> operator*() const {
+      return {json->keyAt(i), (*json)[i]};
+    }
+    Items& operator++() { return ++i, *this; }
+    bool operator!=(const Items& other) const { return i != other.i; }
   };
-  template <class Value>
-  struct Items {
-    struct Iterator {
-      Value* json;
-      size_t i;
-      Item<Value> operator*() const { return {json->keyAt(i), (*json)[i]}; }
-      Iterator& operator++() { return ++i, *this; }
-      bool operator!=(const Iterator& other) const { return i != other.i; }
-    };
-    Value* json;
-    Iterator begin() const { return {json, 0}; }
-    Iterator end() const { return {json, json->is_object() ? json->size() : 0}; }
-  };
-  Items<Json> items() { return {this}; }
-  Items<const Json> items() const { return {this}; }
+  Items items() const { return {this, 0}; }
 
   /// Prints without white space, or with `indent` spaces for each level. Bytes that are not UTF-8
   /// become U+FFFD. `is_ascii` escapes other characters.
   std::string dump(int indent = -1, bool is_ascii = false) const;
 
   /// Whether both have equal members in the same order. Numbers are equal if their values are.
-  friend bool operator==(const Json& a, const Json& b) { return a.equals(b); }
   template <class T>
-  requires std::is_arithmetic_v<T>
-  friend bool operator==(const Json& a, T b) { return a.equals(Json(b)); }
-  /// Orders numbers.
-  friend std::partial_ordering operator<=>(const Json& a, const Json& b) {
-    return a.get<double>() <=> b.get<double>();
+  friend bool operator==(const Json& a, const T& b) {
+    return a.equals(b);
   }
+  /// Orders numbers.
   template <class T>
-  requires std::is_arithmetic_v<T>
-  friend std::partial_ordering operator<=>(const Json& a, T b) {
+  requires std::convertible_to<const T&, double>
+  friend std::partial_ordering operator<=>(const Json& a, const T& b) {
     return a.get<double>() <=> static_cast<double>(b);
   }
   template <std::derived_from<std::ostream> Stream>
@@ -230,36 +206,28 @@ class Json {
   }
 
  private:
-  /// Orders numbers of members by their keys, and equal keys by their places.
+  /// Orders numbers of members by their keys.
   struct ByKey {
     using is_transparent = void;
     const std::vector<std::string>* keys;
-    bool operator()(uint32_t a, uint32_t b) const {
-      const int order = (*keys)[a].compare((*keys)[b]);
-      return order != 0 ? order < 0 : a < b;
-    }
-    bool operator()(uint32_t a, std::string_view key) const { return (*keys)[a] < key; }
+    bool operator()(uint32_t a, uint32_t b) const { return (*keys)[a] < (*keys)[b]; }
+    bool operator()(uint32_t a, std::string_view b) const { return (*keys)[a] < b; }
+    bool operator()(std::string_view a, uint32_t b) const { return a < (*keys)[b]; }
   };
   struct Values {
     std::vector<Json> values;
     std::vector<std::string> keys;              ///< of an object
-    std::set<uint32_t, ByKey> sorted{{&keys}};  ///< all members of an object that has many
+    std::set<uint32_t, ByKey> sorted{{&keys}};  ///< the first members with their keys, if many
+    uint32_t indexed = 0;                       ///< so many members are considered there
+    void index();
   };
-  template <class T>
-  static Json rangeOf(const T& values) {
-    Json array = Json::array();
-    for (const auto& value : values) array.push_back(Json(value));
-    return array;
-  }
   static const Json& null();
+  Json& place(std::integral auto i) { return begin()[i]; }
+  Json& place(std::string_view key);
   bool equals(const Json& other) const;
-  uint64_t wholeNumber() const;
-  double realNumber() const;
-  void setNumber(double value);
   /// The elements or members, which must exist and which no other value shares from now on.
   Values& own();
   Values& become(Kind kind);
-  void sortMembers();
 
   Kind kind_ = Kind::kNull;
   std::string text_;
@@ -274,6 +242,26 @@ inline constexpr uint32_t kMaxJsonDepth = 256;
 /// as they are. Numbers may be larger than any that binary64 holds.
 Result parseJson(std::span<const uint8_t> text, Json& json);
 
+/// Is told what a text of JSON consists of. Whatever it returns but success ends the text.
+class JsonListener {
+ public:
+  virtual ~JsonListener() = default;
+  /// An array or object begins with this byte.
+  virtual Result begin(Json::Kind kind, uint64_t byte) = 0;
+  /// The innermost one ends before this byte.
+  virtual Result end(uint64_t byte) = 0;
+  virtual Result key(std::string key) = 0;
+  /// A value that is neither an array nor an object.
+  virtual Result value(Json value) = 0;
+};
+
+/// Returns the next bytes of a text, which stay until the next call; none at its end.
+using JsonParts = std::function<std::string_view()>;
+
+/// Reads a text of any depth piece by piece, see parseJson(). Its memory is that of the longest
+/// string or number and a byte for each level.
+Result scanJson(const JsonParts& parts, JsonListener& listener);
+
 /// Prints JSON without white space, with numbers as parseJson() found them.
 inline std::string printJson(const Json& json) { return json.dump(); }
 
@@ -282,8 +270,6 @@ inline const Json* findMember(const Json& json, std::string_view key) {
   const Json* const found = json.find(key);
   return found == json.end() ? nullptr : found;
 }
-
-/// The same, where null has no members.
 inline const Json* findMember(const Json* json, std::string_view key) {
   return json == nullptr ? nullptr : findMember(*json, key);
 }

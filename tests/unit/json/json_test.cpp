@@ -11,8 +11,6 @@
 #include <vector>
 
 #include "json/json.h"
-#include "json/json_scanner.h"
-#include "json/numbers.h"
 #include "support/gltf_builder.h"
 
 namespace mcc::gltf::test {
@@ -73,15 +71,13 @@ TEST(Json, EveryChangeOfACopyLeavesTheSourceAlone) {
       [](Json& json) { json["7"][1]["n"] = 8; },
       [](Json& json) { json.find("7")->push_back(1); },
       [](Json& json) { json.erase("7"); },
-      [](Json& json) { json.rename("7", "seven"); },
       [](Json& json) { json.append("new", nullptr); },
       [](Json& json) {
         json.update(Json::object({{"3", 4}}));
       },
       [](Json& json) { json.back() = 1; },
-      [](Json& json) { json.clear(); },
+      [](Json& json) { json.erase(std::as_const(json).begin(), std::as_const(json).end()); },
       [](Json& json) { *json.begin() = "text"; },
-      [](Json& json) { json.items().begin().json->erase("0"); },
       [](Json& json) {
         const Json& shared = json;
         json.erase(shared.begin() + 3, shared.begin() + 9);
@@ -289,32 +285,34 @@ TEST(Json, PartsOfATextAreOneText) {
   const std::string text =
       "\xef\xbb\xbf{\"k\\u00e9\xe4\xb8\xad\":[1.5e-3,\"\\ud83d\\ude39\xf0\x9f\x98\x80\",true,null],"
       "\"\":{}} ";
-  struct Parts {
-    std::string_view rest;
-    size_t byte_count;
-    static std::string_view next(void* self) {
-      Parts& parts = *static_cast<Parts*>(self);
-      const std::string_view part = parts.rest.substr(0, parts.byte_count);
-      parts.rest.remove_prefix(part.size());
-      return part;
-    }
-  };
-  const auto tokens = [](JsonScanner scanner) {
+  struct Told : JsonListener {
     std::string all;
-    for (JsonToken token = JsonToken::kNull; token != JsonToken::kEnd;) {
-      token = scanner.next();
-      all += std::to_string(static_cast<int>(token)) + scanner.text() +
-             std::to_string(scanner.position()) + ";";
-      if (token == JsonToken::kError) return all + scanner.error().message();
+    Result add(const std::string& what) {
+      all += what + ";";
+      return {};
     }
-    return all;
+    Result begin(Json::Kind kind, uint64_t byte) override {
+      return add((kind == Json::Kind::kObject ? "{" : "[") + std::to_string(byte));
+    }
+    Result end(uint64_t byte) override { return add("end" + std::to_string(byte)); }
+    Result key(std::string key) override { return add("key " + key); }
+    Result value(Json value) override { return add(value.dump()); }
+  };
+  const auto told = [](std::string_view rest, size_t byte_count) {
+    Told listener;
+    const Result result = scanJson(
+        [&] {
+          const std::string_view part = rest.substr(0, byte_count);
+          rest.remove_prefix(part.size());
+          return part;
+        },
+        listener);
+    return listener.all + result.message();
   };
   for (size_t end = 0; end <= text.size(); ++end) {
     const std::string_view whole = std::string_view(text).substr(0, end);
     for (size_t byte_count = 1; byte_count < 8; ++byte_count) {
-      Parts parts{whole, byte_count};
-      ASSERT_EQ(tokens(JsonScanner(&Parts::next, &parts)), tokens(JsonScanner(whole)))
-          << end << " " << byte_count;
+      ASSERT_EQ(told(whole, byte_count), told(whole, end)) << end << " " << byte_count;
     }
   }
 }
@@ -335,9 +333,6 @@ TEST(Json, MembersAreFoundHoweverManyThereAre) {
       } else {
         model.emplace_back(key, step);
       }
-    } else if (what == 5 && known == model.end() && !model.empty()) {
-      json.rename(model.back().first, key);
-      model.back().first = key;
     } else {
       json.erase(key);
       if (known != model.end()) model.erase(known);
@@ -400,6 +395,61 @@ TEST(Json, FloatsAreSpeltAsShortAsFloatsCanBe) {
     const std::string spelling = spellingOf(value);
     ASSERT_EQ(static_cast<float>(numberOf(spelling)), value) << spelling;
     ASSERT_LE(spelling.size(), spellingOf(double{value}).size());
+  }
+}
+
+TEST(Json, NumbersOfAnySizeHaveAValue) {
+  const auto valueOf = [](const std::string& spelling) {
+    return Json::parse(spelling).get<double>();
+  };
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(valueOf("1e400"), kInfinity);
+  EXPECT_EQ(valueOf("-1e99999999999999999999"), -kInfinity);
+  EXPECT_EQ(valueOf("1e-99999999999999999999"), 0);
+  EXPECT_EQ(valueOf("0." + std::string(400, '0') + "1e401"), 1);
+  EXPECT_EQ(valueOf("1" + std::string(400, '0') + "e-400"), 1);
+  EXPECT_EQ(valueOf("1" + std::string(400, '0')), kInfinity);
+  const std::pair<const char*, int64_t> kWhole[] = {{"-9223372036854775808", INT64_MIN},
+                                                    {"-5.0", -5},
+                                                    {"-2.5", -2},
+                                                    {"2.5", 2},
+                                                    {"1e30", 9200000000000000000},
+                                                    {"780181660808542531203", 9200000000000000000},
+                                                    {"-1e30", -9200000000000000000}};
+  for (const auto& [spelling, value] : kWhole)
+    EXPECT_EQ(Json::parse(spelling).get<int64_t>(), value) << spelling;
+}
+
+/// What is JSON is JSON wherever a value may stand, and what begins it is not.
+TEST(Json, ValuesMayStandAnywhere) {
+  const char* const kGood[] = {"[]",
+                               "{}",
+                               "null",
+                               "-0",
+                               "1E+2",
+                               "\"\"",
+                               "0e1",
+                               "true",
+                               "[1,[]]",
+                               "{\"\":[{}]}",
+                               "\"\\ud83d\\ude39\""};
+  const char* const kBad[] = {"nul", "01",  "-",      "1.",          "1e",       "\"\\x\"",
+                              "[1",  "{1}", "\"\t\"", "\"\\udc00\"", "\"\xff\"", "[1 2]"};
+  const std::pair<const char*, const char*> kAround[] = {{"", ""},          {" \n", "\t"},
+                                                         {"[", "]"},        {"[0 , ", "\n,1]"},
+                                                         {"{\"k\" :", "}"}, {"[{\"k\":", "}]"}};
+  for (const auto& [before, after] : kAround) {
+    for (const std::string text : kBad)
+      EXPECT_TRUE(reprinted(before + text + after).starts_with("error")) << before + text + after;
+    for (const std::string text : kGood) {
+      const std::string whole = before + text + after;
+      const std::string printed = reprinted(whole);
+      EXPECT_EQ(reprinted(printed), printed) << whole;
+      EXPECT_FALSE(printed.starts_with("error")) << whole;
+      if (*before != '[' && *before != '{') continue;
+      for (size_t end = 0; end + 1 < whole.size(); ++end)
+        EXPECT_TRUE(reprinted(whole.substr(0, end)).starts_with("error")) << whole << " " << end;
+    }
   }
 }
 

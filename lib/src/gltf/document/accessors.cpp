@@ -7,7 +7,6 @@
 #include <cstring>
 #include <limits>
 
-#include "json/numbers.h"
 #include "mcc/reader.h"
 
 namespace mcc::gltf {

@@ -1,5 +1,5 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
-#include "json/utf8.h"
+#include "json/spelling.h"
 
 #include <gtest/gtest.h>
 
