@@ -3,7 +3,7 @@ import { registerGLTFExtension, unregisterGLTFExtension }
   from '@babylonjs/loaders/glTF/2.0/glTFLoaderExtensionRegistry.js';
 import { EXTENSION_NAME } from './document.mjs';
 import { PayloadViews } from './views.mjs';
-import { preload } from './threads.mjs';
+import { preload, rarelyNeeded } from './threads.mjs';
 
 export { preload };
 
@@ -12,7 +12,7 @@ export { preload };
  * the document, rejects the load with a message that says why. May be called again with other
  * options. What decoding needs is loaded at once, while files are on their way.
  *
- * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default where that is done
+ * @param {import('./babylon.mjs').PluginOptions} [options] decode: by default where that is done
  * soonest
  */
 export function registerMeshCollapse(options) {
@@ -43,7 +43,8 @@ class MeshCollapseExtension {
     const loader = this.#loader;
     const { gltf } = loader;
     const fetchPayload = (bufferView) => loader.loadBufferViewAsync(`/bufferViews/${bufferView}`, gltf.bufferViews[bufferView]);
-    this.#views = new PayloadViews(gltf, fetchPayload, this.#options);
+    this.#views = new PayloadViews(gltf, fetchPayload, this.#options, undefined,
+      this.#options?.integers && (async (...given) => (await rarelyNeeded()).makeIntegers(gltf, ...given)));
     gltf.accessors = this.#views.accessors;
     gltf.bufferViews = this.#views.bufferViews;
     gltf.bufferViews.forEach((view, index) => { view.index = index; });

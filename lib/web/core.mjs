@@ -144,10 +144,11 @@ export function describe(exports, isDecoded) {
   const pieces = list(words[at++], () => {
     const [wedgeCount, vertexCount, attributeCount, partCount] = words.subarray(at, (at += 4));
     const attributes = list(attributeCount, () => {
-      const [semantic, set, type, normalized, componentCount, morphTarget, address] = words.subarray(at, (at += 7));
+      const [semantic, set, type, normalized, componentCount, morphTarget, address, bits, grid] = words.subarray(at, (at += 9));
       const componentType = COMPONENT_TYPES[type];
       const array = copyOf(ARRAYS[componentType], address, wedgeCount * componentCount);
-      return { semantic, set, morphTarget, componentType, componentCount, normalized: normalized === 1, array };
+      const lattice = grid ? [...new Float32Array(buffer, grid, 5)] : undefined;
+      return { semantic, set, morphTarget, componentType, componentCount, normalized: normalized === 1, bits, lattice, array };
     });
     const parts = list(partCount, () => {
       const [triangleCount, indexBytes, address] = words.subarray(at, (at += 3));

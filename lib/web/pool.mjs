@@ -4,7 +4,7 @@
 import { checkBytes, checkIndexType, claimsBlocks } from './arguments.mjs';
 import { bytesOf } from './budget.mjs';
 import { asMccError, MccError, requireArgument } from './error.mjs';
-import { importOfNode } from './node.mjs';
+import { workerOfNode } from './node.mjs';
 import { expectedBytes, pace } from './pace.mjs';
 import { pageSource, Source } from './source.mjs';
 import { LONGEST_TASK_MS } from './tasks.mjs';
@@ -227,10 +227,5 @@ async function createWorker(onMessage, onError) {
     worker.onerror = worker.onmessageerror = onError;
     return worker;
   }
-  const threads = await importOfNode('worker_threads');
-  const worker = new threads.Worker(new URL('./worker.mjs', import.meta.url));
-  worker.on('message', onMessage);
-  for (const event of ['error', 'messageerror']) worker.on(event, onError);
-  worker.on('exit', () => onError({ message: 'it has ended' }));
-  return worker;
+  return workerOfNode(onMessage, onError);
 }

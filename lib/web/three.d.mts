@@ -19,6 +19,12 @@ export interface PluginOptions extends UnpackOptions {
    * what it shows of the blocks. A `decode` of your own gets the option `onBlock` of a pool's decodePayload().
    */
   onBlock?: (geometry: any, info: BlockOfPrimitive) => void;
+  /**
+   * Makes quantised attributes integers, as KHR_mesh_quantization allows them. They take less memory on the graphics card. Positions become those
+   * of their lattice, whose place is added to that of the mesh (`position` and `scale`). Those stay float whose mesh has morph targets, a
+   * skin, instances or a volume, or is a node that is animated or has children; and so do weights and morph targets.
+   */
+  integers?: boolean;
 }
 
 export interface PreviewOptions extends Pick<LoadGlbOptions, 'decodeBlocks' | 'limits' | 'signal'> {

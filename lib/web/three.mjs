@@ -54,9 +54,11 @@ export class MeshCollapsePlugin {
     const fetchPayload = async (bufferView) => new Uint8Array(await parser.getDependency('bufferView', bufferView));
     const show = this.#onBlock && (await rarelyNeeded()).showBlock;
     const onBlock = show && ((block, { claims }) => show(THREE, block, claims, this.#onBlock));
-    this.#views = new PayloadViews(parser.json, fetchPayload, this.#options, onBlock);
-    const { accessors, bufferViews } = this.#views;
-    parser.json = { ...parser.json, accessors, bufferViews };
+    const { json } = parser;
+    this.#views = new PayloadViews(json, fetchPayload, this.#options, onBlock, (...given) => this.makeIntegers?.(...given));
+    const { accessors, bufferViews, hasCopies } = this.#views;
+    parser.json = { ...json, accessors, bufferViews };
+    if (hasCopies || this.#options.integers) (await rarelyNeeded()).adaptMeshes(parser, json, this.#options.integers && this);
   }
 
   // Called by the loader for every buffer view; null leaves it to other plugins.

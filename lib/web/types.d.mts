@@ -17,6 +17,10 @@ export interface DecodedAttribute {
   componentType: number;
   componentCount: number;
   normalized: boolean;
+  /** Of floats that are quantised: their bits; 0 for all others. */
+  bits: number;
+  /** Of floats on a lattice: the origins of four components, then the step. Component i is origin i + step * an integer. */
+  lattice?: number[];
   /** componentCount numbers for each of the piece's wedgeCount vertices, without padding. Owns its buffer. */
   array: TypedArray;
 }

@@ -10,14 +10,18 @@ import { decodeAnywhere, preload } from './threads.mjs';
 
 export class PayloadViews {
   #sources = new Map(); // by the number of an added buffer view
+  /** Whether accessors have the same elements. */
+  hasCopies = false;
 
   /**
    * @param {object} json a glTF document; it is not changed
    * @param {(bufferView: number) => Promise<Uint8Array>} fetchPayload the bytes of a buffer view of the file
    * @param {import('./unpack.mjs').UnpackOptions} [options] decode: by default where that is done soonest, see threads.mjs
    * @param {(block: object, payload: object) => void} [onBlock] is called with each block of a payload of payloadsOf()
+   * @param {(decoded: object, payload: object) => Promise<void>} [onDecoded] may change what has been decoded, and the lists below, before the
+   *   loader gets it
    */
-  constructor(json, fetchPayload, options, onBlock) {
+  constructor(json, fetchPayload, options, onBlock, onDecoded) {
     const { decode = decodeAnywhere, limits } = options ?? {};
     const payloads = payloadsOf(json);
     if (decode === decodeAnywhere && payloads.length > 0) preload(); // before the payloads are there, if nobody did it earlier
@@ -30,8 +34,11 @@ export class PayloadViews {
     // Only the size of its payloads is known, not that of the file.
     const budget = new Budget(0, limits);
     const turns = new Turns();
-    const start = (payload) => turns.call(() => (
-      fetchAndDecode(budget, json, payload, fetchPayload, decode, onBlock && { onBlock: (block) => onBlock(block, payload) })));
+    const start = (payload) => turns.call(async () => {
+      const decoded = await fetchAndDecode(budget, json, payload, fetchPayload, decode, onBlock && { onBlock: (block) => onBlock(block, payload) });
+      await onDecoded?.(decoded, payload);
+      return decoded;
+    });
     for (const payload of payloads) {
       let decoded;
       // A payload is decoded once, when the first of its accessors is requested.
@@ -44,7 +51,9 @@ export class PayloadViews {
   #addView(target, decodeOnce, numbers) {
     const { byteOffset, sparse, ...accessor } = this.accessors[target.accessor];
     const origin = originOf(target, accessor);
-    if (!numbers.has(origin)) {
+    if (numbers.has(origin)) {
+      this.hasCopies = true;
+    } else {
       const number = this.bufferViews.length;
       numbers.set(origin, number);
       this.bufferViews.push({ buffer: 0, byteLength: 0 });

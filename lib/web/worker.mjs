@@ -8,7 +8,7 @@
 import { asTrap } from './arguments.mjs';
 import { buffersOfBlock, runTask } from './block_decoder.mjs';
 import { buffersOf, Decoder } from './core.mjs';
-import { importOfNode } from './node.mjs';
+import { listenInNode } from './node.mjs';
 import { nextTask } from './tasks.mjs';
 import { warmUpPayload } from './warm_up.mjs';
 
@@ -85,10 +85,5 @@ if (typeof self === 'object' && typeof self.postMessage === 'function') {
   self.onmessage = ({ data }) => take(data, (message, moved) => self.postMessage(message, moved));
   self.onmessageerror = () => self.postMessage(UNREADABLE);
 } else {
-  // Does not use await at the top level, because the usual output format of bundlers for workers
-  // does not allow it. Messages are queued until the listener is there.
-  importOfNode('worker_threads').then(({ parentPort }) => {
-    parentPort.on('message', (data) => take(data, (message, moved) => parentPort.postMessage(message, moved)));
-    parentPort.on('messageerror', () => parentPort.postMessage(UNREADABLE));
-  });
+  listenInNode(take, UNREADABLE);
 }

@@ -21,6 +21,7 @@ const GIVEN = {
 /** By heading, where it is something else. */
 const OTHERWISE = {
   'Babylon.js': { scene: "import('@babylonjs/core/scene.js').Scene" },
+  'Integers in Babylon.js': { scene: "import('@babylonjs/core/scene.js').Scene" },
   'CesiumJS': { scene: "import('cesium').Scene" },
 };
 /** What the text around a snippet imports. */

@@ -2,10 +2,10 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import './support/peers.mjs';
-import { DoubleSide, Group, Scene } from 'three';
+import { Box3, DoubleSide, Group, Scene, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { createDecoderPool, decodePayload } from '../../lib/web/index.mjs';
-import { readGlb } from '../../lib/web/unpack.mjs';
+import { readGlb, writeGlb } from '../../lib/web/unpack.mjs';
 import { blocksGlb, payloadsIn, trianglesOf, trianglesOfBlocks } from './support/blocks.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
 import { compareWithManifest, refusesNegatives } from './support/loaders.mjs';
@@ -100,6 +100,121 @@ test('three.js shows the blocks of a large primitive before all of it is there',
   assert.deepEqual([...uses].sort(), [0, 1, 2], 'for each primitive');
   await assert.rejects(load(blocksGlb('torus'), { onBlock() { throw new Error('mine'); } }), /mine/);
   await load(readAsset(manifest.assets[0]), { onBlock: () => assert.fail('it has no blocks') });
+});
+
+const meshesOf = ({ scene }) => scene.getObjectsByProperty('isMesh', true);
+const typeOf = (attribute) => (attribute.data ?? attribute).array.constructor.name;
+const typesOf = ({ geometry }) => Object.fromEntries(Object.entries(geometry.attributes).map(([name, attribute]) => [name, typeOf(attribute)]));
+
+/** Changes the document of a GLB. */
+function changed(glb, change) {
+  const { json, chunks } = readGlb(glb);
+  change(json);
+  return writeGlb(json, chunks);
+}
+
+/** Checks that the meshes of two models are the same to what integers lose, and returns the types of each with integers. */
+function compareModels(integers, floats) {
+  for (const { scene } of [integers, floats]) scene.updateMatrixWorld(true);
+  const [found, expected] = [meshesOf(integers), meshesOf(floats)];
+  assert.equal(found.length, expected.length);
+  const countOf = (scene) => {
+    let count = 0;
+    scene.traverse(() => ++count);
+    return count;
+  };
+  assert.equal(countOf(integers.scene), countOf(floats.scene), 'no node is added');
+  const boxes = [integers, floats].map(({ scene }) => new Box3().setFromObject(scene));
+  const size = boxes[1].getSize(new Vector3()).length();
+  for (const end of ['min', 'max']) assert.ok(boxes[0][end].distanceTo(boxes[1][end]) < 1e-6 * size, 'bounds of the document');
+  const [a, b] = [new Vector3(), new Vector3()];
+  for (const [m, mesh] of found.entries()) {
+    assert.ok(mesh.geometry.boundingSphere.radius > 0);
+    const { position, ...others } = mesh.geometry.attributes;
+    for (let i = 0; i < position.count; ++i) {
+      const moved = [mesh, expected[m]].map((each, k) => each.getVertexPosition(i, [a, b][k]).applyMatrix4(each.matrixWorld));
+      assert.ok(moved[0].distanceTo(moved[1]) < 1e-6 * size, `vertex ${i}: ${moved[0].toArray()} and ${moved[1].toArray()}`);
+    }
+    for (const [name, attribute] of Object.entries(others)) {
+      const exact = expected[m].geometry.attributes[name];
+      const step = { Int8Array: 1 / 127, Uint8Array: 1 / 255, Int16Array: 1 / 32767, Uint16Array: 1 / 65535 }[typeOf(attribute)] ?? 0;
+      const isInteger = typeOf(exact) !== 'Float32Array';
+      for (let i = 0; i < attribute.count; ++i) {
+        for (let c = 0; c < attribute.itemSize; ++c) {
+          const difference = Math.abs(attribute.getComponent(i, c) - exact.getComponent(i, c));
+          assert.ok(difference <= (isInteger ? 0 : step / 2 + 1e-6), `${name}: ${difference}`);
+        }
+      }
+    }
+    assert.equal(typeOf(mesh.geometry.index), typeOf(expected[m].geometry.index));
+  }
+  return found.map(typesOf);
+}
+
+const loadBoth = async (glb, options) => compareModels(await load(glb, { integers: true, ...options }), await load(glb, options));
+
+test('three.js gets integers if it is asked for them, in the same places', async () => {
+  const usual = { position: 'Uint16Array', normal: 'Int16Array', tangent: 'Int16Array', uv: 'Uint16Array' };
+  assert.deepEqual(await loadBoth(convert(readSample('textured'))), [usual]);
+  assert.deepEqual(await loadBoth(convert(readSample('shared_vertices'))).then((all) => all.map(({ position }) => position)),
+    ['Uint16Array', 'Uint16Array', 'Uint16Array']);
+  assert.deepEqual(await loadBoth(blocksGlb('torus')).then(([{ position, normal }]) => [position, normal]), ['Uint16Array', 'Int16Array']);
+  const [coarse] = await loadBoth(convert(readSample('textured'), ['--normal-bits', '6', '--texcoord-bits', '7']));
+  assert.deepEqual(coarse, { ...usual, normal: 'Int8Array', uv: 'Uint8Array' });
+  const [fine] = await loadBoth(convert(readSample('textured'), ['--position-bits', '20', '--texcoord-bits', '18']));
+  assert.deepEqual(fine, { ...usual, position: 'Float32Array', uv: 'Float32Array' }, 'what has finer steps than 16 bits');
+  const [exact] = await loadBoth(convert(readSample('textured'), ['--lossless']));
+  assert.deepEqual([...new Set(Object.values(exact))], ['Float32Array']);
+  const [through] = await loadBoth(convert(readSample('textured'), ['--step', '2^-10']));
+  assert.equal(through.position, 'Uint16Array', 'also of a lattice through the origin');
+  await loadBoth(convert(readSample('quantized')));
+  await loadBoth(convert(readSample('textured'), ['--indices-only']));
+  const decode = (payload, options) => decodePayload(payload, options);
+  assert.deepEqual(await loadBoth(convert(readSample('textured')), { decode }), [usual], 'with a function of the application');
+});
+
+test('three.js keeps positions float where a lattice would move something else', async () => {
+  const glb = convert(readSample('textured'));
+  const positionOf = async (change, source = glb) => (await loadBoth(changed(source, change)))[0].position;
+  const node = ({ nodes }) => nodes.find(({ mesh }) => mesh === 0);
+  const turned = { translation: [1, 2, 3], rotation: [0.6, 0, 0, 0.8], scale: [1, 2, -3] };
+  assert.equal(await positionOf((json) => Object.assign(node(json), turned)), 'Uint16Array');
+  assert.equal(await positionOf((json) => Object.assign(node(json), { scale: [5, 1, 1] })), 'Uint16Array');
+  assert.equal(await positionOf((json) => Object.assign(node(json), { matrix: [0, 2, 0, 0, -1, 0, 0, 0, 0, 0, 3, 0, 7, 8, 9, 1] })), 'Uint16Array');
+  assert.equal(await positionOf((json) => {
+    json.nodes.push({ mesh: 0, ...turned });
+    json.scenes[0].nodes.push(json.nodes.length - 1);
+  }), 'Uint16Array', 'two nodes with one mesh');
+  assert.equal(await positionOf((json) => {
+    json.nodes.push({ translation: [1, 1, 1] });
+    node(json).children = [json.nodes.length - 1];
+  }), 'Float32Array', 'a node with a child');
+  assert.equal(await positionOf((json) => {
+    json.materials[0].extensions = { KHR_materials_volume: { thicknessFactor: 1 } };
+    json.extensionsUsed.push('KHR_materials_volume');
+  }), 'Float32Array', 'a volume');
+  for (const name of ['skinned', 'morphed']) assert.equal((await loadBoth(convert(readSample(name))))[0].position, 'Float32Array', name);
+  const several = (json) => {
+    Object.assign(node(json), turned);
+    json.nodes.push({ mesh: 0, translation: [5, 5, 5] });
+    node(json).children = [json.nodes.length - 1];
+  };
+  assert.equal(await positionOf(several, convert(readSample('two_materials'))), 'Uint16Array', 'a group of primitives, with a child');
+});
+
+test('three.js has one attribute for accessors with the same elements', async () => {
+  const glb = changed(convert(readSample('two_materials')), (json) => {
+    const [first] = json.meshes[0].primitives;
+    const copy = (index) => json.accessors.push({ ...json.accessors[index] }) - 1;
+    const attributes = Object.fromEntries(Object.entries(first.attributes).map(([name, index]) => [name, copy(index)]));
+    json.meshes.push({ primitives: [{ ...first, attributes, indices: copy(first.indices) }] });
+    json.nodes.push({ mesh: json.meshes.length - 1 });
+    json.scenes[0].nodes.push(json.nodes.length - 1);
+  });
+  const all = meshesOf(await load(glb)).map(({ geometry }) => geometry);
+  const [first] = all;
+  const same = all.filter(({ attributes }) => attributes.position === first.attributes.position && attributes.normal === first.attributes.normal);
+  assert.ok(same.length > 1 && same.includes(all.at(-1)));
 });
 
 /** A preview, which two nodes show, before a model in blocks. */

@@ -7,7 +7,8 @@
 // The table describes the whole payload in 32-bit words:
 //   number of pieces; for each piece: wedges, vertices, attributes, parts;
 //   for each attribute: semantic, set, component type, normalized, components, morph target,
-//   address;
+//   address, bits of quantised floats or 0, address of the lattice (origin: 4 floats, step: a
+//   float) or 0;
 //   for each part: triangles, bytes of an index, address.
 // The addresses are those of the outputs; they are valid after decode().
 //

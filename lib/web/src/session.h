@@ -6,6 +6,7 @@
 // knows that nothing else calls these functions.
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -17,7 +18,8 @@ namespace mcc {
 namespace {
 
 constexpr uint32_t kPieceWords = 4;
-constexpr uint32_t kAttributeWords = 7;
+constexpr uint32_t kAttributeWords = 9;
+constexpr uint32_t kAddressWord = 6;  ///< of an attribute
 constexpr uint32_t kPartWords = 3;
 constexpr uint64_t kAlignmentBytes = 8;
 
@@ -42,6 +44,8 @@ Limits limitsOf(double max_vertices, double max_triangles, double max_attributes
   limits.max_output_bytes = limitOf(max_output_bytes);
   return limits;
 }
+
+static_assert(offsetof(Lattice, step) == 4 * sizeof(float), "core.mjs reads origin, then step");
 
 /// The open payload and everything that belongs to it. The table is described in decoder.cpp.
 struct Session {
@@ -122,6 +126,11 @@ struct Session {
       add(format.component_count);
       add(format.morph_target);
       add(0);
+      const bool is_lattice = attribute.coding == AttributeCoding::kLattice;
+      const bool is_quantised = is_lattice || attribute.coding == AttributeCoding::kOctahedral ||
+                                attribute.coding == AttributeCoding::kTangentAngle;
+      add(is_quantised ? attribute.bits : 0);
+      add(is_lattice ? addressOf(&attribute.lattice) : 0);
     }
     for (const PartInfo& part : piece.parts) {
       add(part.triangle_count);
@@ -153,7 +162,7 @@ struct Session {
       for (const AttributeInfo& info : piece.attributes) {
         const uint32_t stride = elementBytes(info.format);
         *attribute = {place(uint64_t{piece.wedge_count} * stride), stride};
-        word[kAttributeWords - 1] = addressOf(attribute++->data);
+        word[kAddressWord] = addressOf(attribute++->data);
         word += kAttributeWords;
       }
       const bool is_short = widest_short == IndexType::kUint16 && piece.wedge_count <= 0xffff;

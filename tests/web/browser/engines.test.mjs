@@ -32,7 +32,7 @@ const site = useSite();
 const open = ({ page, query = '' }, more = '') =>
   openPage(site.browser, `${site.server.origin}/pages/${page}.html?${query}&${more}`, () => globalThis.draw !== undefined);
 
-const draw = async (page, model) => readPicture(await page.evaluate((name) => globalThis.draw(name), model));
+const draw = async (page, model, snippet) => readPicture(await page.evaluate(([name, heading]) => globalThis.draw(name, heading ?? undefined), [model, snippet]));
 
 /** What is wrong with the picture of a compressed model. */
 function problemsOf(name, { picture, plain, source }) {
@@ -73,6 +73,36 @@ async function failsWithoutLibrary(engine, name, references) {
   const problems = await draw(page, `${name}.mcc`).then((picture) => problemsOf(name, { picture, ...references }), String);
   assert.match(String(problems), engine.without);
   await page.close();
+}
+
+const INTEGERS = [
+  {
+    engine: ENGINES[0], snippet: 'Integers in three.js',
+    types: { position: 'Uint16Array', normal: 'Int16Array', uv: 'Uint16Array', tangent: 'Int16Array' }, moved: ['skinned', 'morphed', 'instances'],
+  },
+  {
+    engine: ENGINES[1], snippet: 'Integers in Babylon.js',
+    types: { position: 5126, normal: 5122, uv: 5123, tangent: 5122 }, moved: [],
+  },
+];
+
+for (const { engine, snippet, types, moved } of INTEGERS) {
+  test(`${engine.page} shows the same with integers`, async () => {
+    const { page, violations } = await open(engine);
+    const uploads = () => page.evaluate(() => globalThis.uploads());
+    for (const name of ALL) {
+      const plain = await draw(page, `${name}.plain`);
+      const floats = await uploads();
+      const picture = await draw(page, `${name}.mcc`, snippet);
+      const integers = await uploads();
+      assert.deepEqual(problemsOf(name, { picture, plain, source: plain }), []);
+      if (name === 'textured') assert.deepEqual(integers.types, types);
+      if (moved.includes(name)) assert.equal(integers.types.position, 'Float32Array', name);
+      if (name === 'materials' && floats.bytes !== undefined) assert.ok(integers.bytes <= 0.67 * floats.bytes, `${integers.bytes} of ${floats.bytes} bytes`);
+    }
+    assert.deepEqual(violations(), []);
+    await page.close();
+  });
 }
 
 test('where workers cannot start, plugins decode on the thread of the page', async () => {

@@ -13,14 +13,17 @@ SceneLoaderFlags.ShowLoadingScreen = false;
 const canvas = newCanvas();
 const engine = new Engine(canvas, true, { preserveDrawingBuffer: true });
 
-globalThis.draw = async (model) => {
+let types;
+
+globalThis.draw = async (model, snippet = 'Babylon.js') => {
   const scene = new Scene(engine);
   scene.clearColor = new Color4(1, 1, 1, 1);
   scene.useRightHandedSystem = true;
   new HemisphericLight('sky', new Vector3(0, 1, 0), scene).intensity = 0.8;
   new DirectionalLight('sun', new Vector3(-1, -2, -3), scene).intensity = 1.5;
   try {
-    await runSnippet('Babylon.js', model, { scene });
+    await runSnippet(snippet, model, { scene });
+    types = Object.fromEntries(scene.meshes.flatMap((mesh) => mesh.getVerticesDataKinds().map((kind) => [kind, mesh.getVertexBuffer(kind).type])));
     pose(scene);
     placeCamera(scene);
     await scene.whenReadyAsync();
@@ -30,6 +33,9 @@ globalThis.draw = async (model) => {
     scene.dispose();
   }
 };
+
+/** The component types of the attributes that the graphics card has got. */
+globalThis.uploads = () => ({ types });
 
 function pose(scene) {
   for (const group of scene.animationGroups) group.stop();

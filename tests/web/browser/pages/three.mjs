@@ -6,16 +6,29 @@ import { DISTANCE, FIELD_OF_VIEW_DEGREES, HEIGHT, JOINT_ANGLE, MORPH_WEIGHT, TOW
 const renderer = new THREE.WebGLRenderer({ canvas: newCanvas(), antialias: true });
 renderer.setSize(WIDTH, HEIGHT, false);
 
-globalThis.draw = async (model) => {
+let shown;
+
+globalThis.draw = async (model, snippet = 'three.js') => {
   const scene = new THREE.Scene();
   scene.background = new THREE.Color(0xffffff);
   const light = new THREE.DirectionalLight(0xffffff, 2);
   light.position.set(1, 2, 3);
   scene.add(light, new THREE.HemisphereLight(0xffffff, 0x444444, 1.5));
-  await runSnippet('three.js', model, { scene });
+  await runSnippet(snippet, model, { scene });
   scene.traverse(pose);
   renderer.render(scene, cameraFor(scene));
+  shown = scene;
   return renderer.domElement.toDataURL();
+};
+
+/** The types of the arrays that the graphics card has got, by attribute, and their bytes. */
+globalThis.uploads = () => {
+  const arrays = new Map();
+  shown.traverse(({ geometry }) => {
+    for (const [name, attribute] of Object.entries(geometry?.attributes ?? {})) arrays.set((attribute.data ?? attribute).array, name);
+  });
+  const types = Object.fromEntries([...arrays].map(([array, name]) => [name, array.constructor.name]));
+  return { types, bytes: [...arrays.keys()].reduce((sum, { byteLength }) => sum + byteLength, 0) };
 };
 
 function pose(object) {

@@ -1,0 +1,91 @@
+// Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
+//
+// Puts meshes whose positions are integers of a lattice where their floats would be, without more nodes: the lattice becomes part of the
+// mesh's own place. GLTFLoader makes one Mesh of a mesh with one primitive, which also is its node, else a Group of them.
+import { makeIntegers } from './integers.mjs';
+
+/** Of what payloadsOf() has not checked. */
+const listOf = (value) => (Array.isArray(value) ? value : []);
+
+/**
+ * Lists the positions that must stay as they are: accessors of meshes whose place is not theirs alone, or means something else. These have
+ * morph targets, skins, instances or a volume, or are a node that is animated or has children.
+ * @param {object} json a document that payloadsOf() has checked
+ * @returns {Set<number>}
+ */
+function fixedPositions({ meshes = [], nodes = [], materials = [], animations = [] }) {
+  const targets = animations.flatMap(({ channels }) => listOf(channels)).map((channel) => channel?.target);
+  const moved = new Set(targets.filter((target) => target?.path !== 'weights').map((target) => target?.node));
+  const isFixedNode = ({ mesh, skin, children, camera, extensions }, index) => skin !== undefined || extensions?.EXT_mesh_gpu_instancing !== undefined
+    || (listOf(meshes[mesh]?.primitives).length === 1 && (children?.length > 0 || camera !== undefined || extensions !== undefined
+      || moved.has(index) || moved.has(undefined))); // undefined: a pointer to anything
+  const fixed = new Set(nodes.filter(isFixedNode).map(({ mesh }) => mesh));
+  const hasVolume = ({ material }) => materials?.[material]?.extensions?.KHR_materials_volume !== undefined;
+  const isFixed = ({ primitives }, index) => fixed.has(index)
+    || listOf(primitives).some((primitive) => primitive.targets !== undefined || hasVolume(primitive));
+  return new Set(meshes.filter(isFixed).flatMap(({ primitives }) => listOf(primitives).map(({ attributes }) => attributes?.POSITION)));
+}
+
+/** GLTFLoader's meshes and nodes, with their places. */
+export class IntegerMeshes {
+  #parser;
+  #fixed;
+  /** Of positions that are integers, by accessor, see makeIntegers(). */
+  #places = new Map();
+  #bounded = new WeakSet();
+
+  /** @param {import('three/addons/loaders/GLTFLoader.js').GLTFParser} parser whose lists are those of PayloadViews */
+  constructor(parser) {
+    this.#parser = parser;
+  }
+
+  /** For PayloadViews. */
+  async makeIntegers(decoded, payload) {
+    const { json } = this.#parser;
+    this.#fixed ??= fixedPositions(json);
+    for (const [accessor, place] of await makeIntegers(json, decoded, payload, this.#fixed)) this.#places.set(accessor, place);
+  }
+
+  async loadMesh(index) {
+    const object = await this.#parser.loadMesh(index);
+    for (const [i, { attributes }] of this.#parser.json.meshes[index].primitives.entries()) {
+      const place = this.#places.get(attributes?.POSITION);
+      const mesh = object.isGroup ? object.children[i] : object;
+      if (place === undefined) continue;
+      this.#bound(mesh.geometry, place);
+      putInto(mesh, place);
+    }
+    return object;
+  }
+
+  async loadNode(index) {
+    const node = await this.#parser.loadNode(index);
+    const { mesh, matrix, translation = [0, 0, 0], scale = [1, 1, 1] } = this.#parser.json.nodes[index];
+    const primitives = listOf(this.#parser.json.meshes?.[mesh]?.primitives);
+    const place = primitives.length === 1 ? this.#places.get(primitives[0].attributes?.POSITION) : undefined;
+    // A matrix came before the lattice. Other members of the place have taken that of the lattice away.
+    if (place !== undefined && node.isMesh && matrix === undefined) {
+      node.position.fromArray(translation);
+      node.scale.fromArray(scale);
+      putInto(node, place);
+    }
+    return node;
+  }
+
+  /** Bounds are those of the document, in its units. */
+  #bound(geometry, { step, origin }) {
+    if (this.#bounded.has(geometry) || geometry.boundingBox === null) return;
+    this.#bounded.add(geometry);
+    const { boundingBox: { min, max }, boundingSphere } = geometry;
+    const offset = min.clone().fromArray(origin);
+    for (const point of [min, max, boundingSphere.center]) point.sub(offset).divideScalar(step);
+    boundingSphere.radius /= step;
+  }
+}
+
+/** The object's place, after that of the lattice. */
+function putInto(object, { step, origin }) {
+  const { position, quaternion, scale } = object;
+  position.add(position.clone().fromArray(origin).multiply(scale).applyQuaternion(quaternion));
+  scale.multiplyScalar(step);
+}
