@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "documents/random_document.h"
 #include "foreign/decoders.h"
@@ -46,6 +47,16 @@ struct Seeds {
     }
   }
 };
+
+/// The document of a seed. Those that were made last are kept, since each test wants them.
+const RandomDocument& documentOf(uint64_t seed) {
+  constexpr size_t kMostKept = 300;
+  static std::map<uint64_t, RandomDocument> kept;
+  const auto found = kept.find(seed);
+  if (found != kept.end()) return found->second;
+  if (kept.size() == kMostKept) kept.clear();
+  return kept[seed] = randomDocument(seed);
+}
 
 /// Returns the files of a folder, without those in subfolders.
 Files filesIn(const fs::path& folder) {
@@ -204,7 +215,7 @@ TEST_F(Documents, ComeBackAsTheyWere) {
     EXPECT_TRUE(!no_validator.empty() || validated_count % 500 == 0 || validator.run(true));
   };
   Seeds().forEach("documents", [&](uint64_t seed) {
-    RandomDocument document = randomDocument(seed);
+    RandomDocument document = documentOf(seed);
     Way way(folder_.path());
     const Result result = way.convertDocument(document);
     expectClean(result.message());
@@ -263,7 +274,7 @@ TEST_F(Documents, ComeBackAsTheyWere) {
 TEST_F(Documents, DamagedOnesAreRefusedInOneLine) {
   uint64_t refused_count = 0;
   Seeds().forEach("damaged documents", [&](uint64_t seed) {
-    RandomDocument document = randomDocument(seed);
+    RandomDocument document = documentOf(seed);
     damage(seed, document);
     Way way(folder_.path());
     const Result result = way.convertDocument(document);
@@ -282,7 +293,7 @@ TEST_F(Documents, DamagedOnesAreRefusedInOneLine) {
 
 TEST_F(Documents, DamagedCompressedOnesAreRefusedInOneLine) {
   Seeds().forEach("damaged compressed documents", [&](uint64_t seed) {
-    RandomDocument document = randomDocument(seed);
+    RandomDocument document = documentOf(seed);
     document.options.allow_larger = true;
     Way way(folder_.path());
     if (!way.convertDocument(document).ok()) return;  // the test above reports this

@@ -41,21 +41,24 @@ struct Column {
     return columns() == 1 ? bytes : (bytes + 3) / 4 * 4;
   }
   uint32_t elementBytes() const { return columns() * columnBytes(); }
-  /// Returns an element in the layout of a buffer.
-  Bytes element(uint32_t i) const {
-    Bytes bytes(elementBytes(), 0);
+  /// Writes all elements in the layout of a buffer, `stride` apart.
+  void layOut(uint8_t* out, size_t stride) const {
+    const uint32_t column_count = columns();
     const uint32_t tight_column = rows() * widthOf(component_type);
-    for (uint32_t c = 0; c < columns(); ++c) {
-      std::copy_n(tight.begin() + i * tightBytes() + c * tight_column, tight_column,
-                  bytes.begin() + c * columnBytes());
+    const uint32_t column_bytes = columnBytes();
+    const uint8_t* from = tight.data();
+    for (uint32_t i = 0; i < count; ++i, out += stride) {
+      std::memset(out, 0, size_t{column_count} * column_bytes);
+      for (uint32_t c = 0; c < column_count; ++c, from += tight_column)
+        std::memcpy(out + c * column_bytes, from, tight_column);
     }
-    return bytes;
   }
   void add(double value) {
     withType(component_type, [&](auto typed) {
       typed = static_cast<decltype(typed)>(value);
-      const auto* bytes = reinterpret_cast<const uint8_t*>(&typed);
-      tight.insert(tight.end(), bytes, bytes + sizeof typed);
+      const size_t at = tight.size();
+      tight.resize(at + sizeof typed);
+      std::memcpy(tight.data() + at, &typed, sizeof typed);
     });
   }
   double get(size_t number) const { return componentAt(component_type, tight.data(), number); }
@@ -296,14 +299,16 @@ class Maker {
 
   /// The elements at multiples of `stride`; the last one without padding or with it.
   Bytes layOut(const Column& column, uint32_t stride) {
-    Bytes bytes;
+    const uint32_t element_bytes = column.elementBytes();
+    Bytes bytes(size_t{column.count} * stride);
+    column.layOut(bytes.data(), stride);
     for (uint32_t i = 0; i < column.count; ++i) {
-      const Bytes element = column.element(i);
-      bytes.insert(bytes.end(), element.begin(), element.end());
-      if (i + 1 == column.count && chance(50)) break;
-      for (uint32_t k = column.elementBytes(); k < stride; ++k) {
-        bytes.push_back(static_cast<uint8_t>(below(3)));
+      if (i + 1 == column.count && chance(50)) {
+        bytes.resize(size_t{i} * stride + element_bytes);
+        break;
       }
+      for (uint32_t k = element_bytes; k < stride; ++k)
+        bytes[size_t{i} * stride + k] = static_cast<uint8_t>(below(3));
     }
     return bytes;
   }
@@ -439,12 +444,7 @@ class Maker {
       return numbers;
     }
     Bytes bytes(size_t{stride} * columns[0].count, 0xcd);
-    for (size_t k = 0; k < columns.size(); ++k) {
-      for (uint32_t i = 0; i < columns[k].count; ++i) {
-        const Bytes element = columns[k].element(i);
-        std::copy(element.begin(), element.end(), bytes.begin() + i * stride + offsets[k]);
-      }
-    }
+    for (size_t k = 0; k < columns.size(); ++k) columns[k].layOut(&bytes[offsets[k]], stride);
     const uint32_t view = addView(bytes, stride, 4);
     for (size_t k = 0; k < columns.size(); ++k) {
       Json accessor = describeColumn(columns[k]);

@@ -238,6 +238,37 @@ TEST(Gltf21, PrimitivesWithNewTypesStay) {
   }
 }
 
+/// Values whose bits mean other numbers, and finite ones, as floats and as unsigned integers.
+TEST(Gltf21, BoundsOfSignedIntegersAreThoseOfTheirValues) {
+  constexpr int32_t kFar = 1 << 30;
+  Builder builder;
+  builder.json["asset"]["version"] = "2.1";
+  const Sheet sheet(12);
+  Json primitive = sheet.addTo(builder);
+  std::vector<int32_t> ids;
+  for (uint32_t i = 0; i < sheet.count(); ++i) ids.push_back(i % 2 == 0 ? -kFar : kFar);
+  const uint32_t accessor = builder.addAccessor(ids, 5124, "SCALAR", ids.size());
+  primitive["attributes"]["_ID"] = accessor;
+  builder.json["accessors"][accessor]["min"] = {-kFar};
+  builder.json["accessors"][accessor]["max"] = {kFar};
+  builder.addMesh({primitive});
+  const RoundTrip trip = roundTrip(builder, lossless());
+  ASSERT_EQ(trip.error, "");
+  GlbFile glb;
+  ASSERT_TRUE(readGlb(trip.converted, glb).ok());
+  for (const auto& [bound, value] : {std::pair("min", -kFar), std::pair("max", kFar)}) {
+    for (const int32_t off : {-1, 0, 1}) {
+      Json json = jsonOf(trip.converted);
+      json["accessors"][accessor][bound] = {value + off};
+      std::vector<uint8_t> changed;
+      ASSERT_TRUE(writeGlb(printJson(json), glb.bin, {}, changed).ok());
+      ValidationReport validation;
+      ASSERT_TRUE(validateGlb(changed, {}, validation).ok());
+      EXPECT_EQ(validation.issues.size(), off == 0 ? 0u : 1u) << bound << " " << off;
+    }
+  }
+}
+
 TEST(Gltf21, IdsOf32BitsAreCompressedExactly) {
   for (const int type : {5124, kUnsignedInt}) {
     Builder builder;

@@ -77,9 +77,9 @@ struct Shape {
 
 /// The shape of a type like "VEC3" or "MAT4".
 inline Shape shapeOf(const std::string& type) {
-  if (type == "SCALAR") return {};
+  if (type.front() == 'S') return {};
   const auto size = static_cast<uint32_t>(type.back() - '0');
-  return {type.starts_with("MAT") ? size : 1, size};
+  return {type.front() == 'M' ? size : 1, size};
 }
 
 inline std::string base64Of(std::span<const uint8_t> bytes) {

@@ -165,6 +165,31 @@ TEST(Json, ReadsWholeNumbersInAnySpelling) {
             std::string::npos);
 }
 
+/// What is no integer of 64 bits is cut or clamped, as the bounds of accessors may be.
+TEST(Json, WholeNumbersOfAnySpelling) {
+  const std::pair<const char*, uint64_t> kNumbers[] = {
+      {"0", 0},
+      {"-0", 0},
+      {"-1", ~uint64_t{0}},
+      {"-9223372036854775808", uint64_t{1} << 63},
+      {"18446744073709551615", ~uint64_t{0}},
+      {"9007199254740992.0", uint64_t{1} << 53},
+      {"1.8e16", 18000000000000000},
+      {"-3.0", static_cast<uint64_t>(int64_t{-3})},
+      {"-3.9", static_cast<uint64_t>(int64_t{-3})},
+      {"3.9", 3},
+      {"1e300", 9200000000000000000},
+      {"-1e300", static_cast<uint64_t>(int64_t{-9200000000000000000})},
+      {"-1e19", static_cast<uint64_t>(int64_t{-9200000000000000000})}};
+  for (const auto& [spelling, value] : kNumbers)
+    EXPECT_EQ(wholeNumberOf(spelling), value) << spelling;
+  uint64_t value = 0;
+  EXPECT_TRUE(readUnsigned("9007199254740992.0", value));
+  EXPECT_FALSE(readUnsigned("9007199254740994.0", value));
+  EXPECT_FALSE(readUnsigned("0.5", value));
+  EXPECT_FALSE(readUnsigned("-1.0", value));
+}
+
 /// Texts in the manner of nst's JSONTestSuite, https://github.com/nst/JSONTestSuite: whether each
 /// is JSON.
 TEST(Json, TakesJsonAndNothingElse) {

@@ -32,7 +32,8 @@ Mirrors mirrorsOf(std::initializer_list<Mirror> list) {
 /// Vertices of a mesh whose mates are to be found. They are added in the order of the tests.
 class Mates {
  public:
-  Mates(const std::vector<Face>& faces, const std::vector<Point>& points, const Mirrors& mirrors)
+  Mates(const std::vector<Face>& faces, const std::vector<Point>& points, const Mirrors& mirrors,
+        bool has_anchors = false)
       : points_(points),
         words_(kFaceWords * faces.size(), kNone),
         records_(points.size()),
@@ -50,7 +51,7 @@ class Mates {
       const auto twin = half_edges.find({ends.second, ends.first});
       if (twin != half_edges.end()) words_[h + 4] = twin->second;
     }
-    EXPECT_TRUE(mates_.init(static_cast<uint32_t>(points.size()), false));
+    EXPECT_TRUE(mates_.init(static_cast<uint32_t>(points.size()), has_anchors));
   }
 
   /// Looks for candidates of a vertex at `from`.
@@ -68,6 +69,16 @@ class Mates {
   void addAlone(uint32_t vertex) {
     look({}, {});
     add(vertex);
+  }
+  /// Adds the first vertex of a component that has an anchor.
+  void begin(uint32_t vertex, uint32_t anchor) {
+    look({}, {});
+    std::copy_n(points_[vertex].data(), 3, records_[vertex].q);
+    mates_.begin(vertex, {anchor, 0});
+    add(vertex);
+  }
+  uint32_t mateOf(uint32_t mirror, uint32_t vertex) const {
+    return vertex_mates_.mateOf(mirror, vertex);
   }
   std::vector<Point> images() const {
     std::vector<Point> all;
@@ -242,6 +253,31 @@ TEST(Mirrors, TheLastVertexOfAPositionIsFound) {
   for (uint32_t v = 0; v < 7; ++v) mates.addAlone(v);
   mates.look({6}, {5, 2, 7});
   EXPECT_EQ(mates.images(), (std::vector<Point>{{5, 2, 7}, {6, 2, 7}}));
+}
+
+TEST(Mirrors, AVertexIsRepeatedOnceInEachComponent) {
+  // Two copies of a triangle, each with its vertex 1 doubled, as where a surface was cut: 5 and 9.
+  const std::vector<Point> triangle = {{0, 0, 0}, {0, 9, 0}, {-7, 4, 0}};
+  std::vector<Point> points = triangle;
+  for (const int32_t z : {50, 90}) {
+    for (const Point& p : {triangle[0], triangle[1], triangle[1], triangle[2]})
+      points.push_back({p[0], p[1], z});
+  }
+  Mates mates({{0, 1, 2}, {3, 4, 5}, {4, 6, 5}, {7, 8, 9}, {8, 10, 9}}, points, {}, true);
+  for (uint32_t v = 0; v < 3; ++v) mates.addAlone(v);
+  for (const uint32_t first : {3u, 7u}) {
+    mates.begin(first, 0);
+    mates.look({first}, points[first + 1]);
+    EXPECT_EQ(mates.images(), (std::vector<Point>{points[first + 1], points[first + 3]}));
+    mates.addAlone(first + 1);
+    mates.look({first}, points[first + 2]);
+    EXPECT_EQ(mates.images(), (std::vector<Point>{points[first + 3]})) << "1 is taken";
+    for (uint32_t v = first + 2; v < first + 4; ++v) mates.addAlone(v);
+    EXPECT_EQ(mates.mateOf(0, first), 0u);
+    EXPECT_EQ(mates.mateOf(0, first + 1), 1u);
+    EXPECT_EQ(mates.mateOf(0, first + 2), kNone) << "1 is taken";
+    EXPECT_EQ(mates.mateOf(0, first + 3), 2u);
+  }
 }
 
 // ---- The list of mirrors ------------------------------------------------------------------------

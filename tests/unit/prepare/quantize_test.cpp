@@ -15,6 +15,7 @@
 #include "prepare/enc_quantize.h"
 #include "support/mesh_generators.h"
 #include "vectors/octahedral.h"
+#include "vectors/tangents.h"
 
 namespace mcc::test {
 namespace {
@@ -336,6 +337,60 @@ TEST(Octahedral, OnlyForUnitVectors) {
   const std::vector<float> with_zero = {0, 0, 1, 0, 0, 0};
   EXPECT_NE(quantized(with_zero, 3, 10, Semantic::kNormal).attribute.info.coding,
             AttributeCoding::kOctahedral);
+}
+
+// ---- Tangents -----------------------------------------------------------------------------------
+
+/// Unit vectors perpendicular to normals, in any direction, with a sign of 1 or -1.
+std::vector<float> randomTangents(const std::vector<float>& normals, Random& random) {
+  std::vector<float> tangents;
+  for (size_t i = 0; i < normals.size(); i += 3) {
+    float e[2][3];
+    tangentFrame(&normals[i], e[0], e[1]);
+    const float angle = random.unit() * 6.2831853f;
+    for (int s = 0; s < 3; ++s)
+      tangents.push_back(std::cos(angle) * e[0][s] + std::sin(angle) * e[1][s]);
+    tangents.push_back(random.unit() < 0.5f ? 1.0f : -1.0f);
+  }
+  return tangents;
+}
+
+TEST(Tangents, TheAngleIsTheNearestOfAll) {
+  Random random(6);
+  const std::vector<float> normals = randomNormals(200, random);
+  const std::vector<float> tangents = randomTangents(normals, random);
+  const auto count = static_cast<uint32_t>(normals.size() / 3);
+  for (const uint32_t bits : {2u, 3u, 7u, 10u}) {
+    std::vector<AttributeView> attributes(3);
+    const Semantic semantics[] = {Semantic::kPosition, Semantic::kNormal, Semantic::kTangent};
+    for (size_t i = 0; i < 3; ++i) {
+      attributes[i].format.semantic = semantics[i];
+      attributes[i].format.component_count = i == 2 ? 4 : 3;
+      attributes[i].data = i == 2 ? tangents.data() : normals.data();
+      attributes[i].stride_bytes = size_t{4} * attributes[i].format.component_count;
+      attributes[i].quantization_bits = static_cast<uint8_t>(i == 2 ? bits : 16);
+    }
+    std::vector<std::string> notes;
+    const std::vector<QuantizedAttribute> all =
+        quantizeAttributes({count, attributes, {}}, {}, notes);
+    ASSERT_EQ(all[2].info.coding, AttributeCoding::kTangentAngle);
+    for (uint32_t w = 0; w < count; ++w) {
+      float normal[3];
+      octahedralToUnit(all[1].values[2 * size_t{w}], all[1].values[2 * size_t{w} + 1],
+                       octahedralCentre(16), normal);
+      const auto error = [&](int32_t angle) {
+        float unit[3];
+        tangentFromAngle(normal, angle, bits, unit);
+        return angleBetween(unit, &tangents[4 * size_t{w}]);
+      };
+      double least = 10;
+      for (int32_t angle = 0; angle < 1 << bits; ++angle) least = std::min(least, error(angle));
+      const int32_t chosen = all[2].values[2 * size_t{w}];
+      ASSERT_TRUE(0 <= chosen && chosen < 1 << bits) << chosen;
+      EXPECT_LE(error(chosen), least + 1e-6);
+      EXPECT_EQ(all[2].values[2 * size_t{w} + 1], tangents[4 * size_t{w} + 3] < 0 ? 1 : 0);
+    }
+  }
 }
 
 }  // namespace

@@ -15,6 +15,9 @@
 
 #include "format/predictors.h"
 #include "positions/enc_isolated.h"
+#include "positions/enc_recording.h"
+#include "positions/growth.h"
+#include "positions/predict.h"
 #include "support/mesh_generators.h"
 #include "unit/surface.h"
 #include "writer/predictor_search.h"
@@ -124,6 +127,110 @@ class Pair {
 };
 
 // ---- Positions ----------------------------------------------------------------------------------
+
+/// What a walk over a piece sees around a vertex, as numbers: vertices, kNone for those that are
+/// not known, and counts.
+using Sight = std::vector<uint32_t>;
+
+uint32_t numberOf(const VertexRecord* records, const VertexRecord* r) {
+  return r != nullptr ? static_cast<uint32_t>(r - records) : kNone;
+}
+Sight sightOf(const VertexRecord* records, const PlainFan& fan, const Beyond& b) {
+  Sight sight;
+  for (const VertexRecord* r :
+       {fan.n0, fan.n1, fan.n2, fan.o0, fan.o1, b.has_ya ? b.ya : nullptr,
+        b.has_yb ? b.yb : nullptr, b.has_x ? b.xa : nullptr, b.has_x ? b.xb : nullptr})
+    sight.push_back(numberOf(records, r));
+  return sight;
+}
+Sight sightOf(const VertexRecord* records, const AnyFan& fan) {
+  Sight sight = {fan.closed ? 1u : 0u, fan.face_count, fan.neighbour_count};
+  for (uint32_t i = 0; i <= fan.face_count; ++i) sight.push_back(numberOf(records, fan.n[i]));
+  for (uint32_t i = 0; i < fan.face_count; ++i) sight.push_back(numberOf(records, fan.o[i]));
+  return sight;
+}
+
+/// A visitor of RegionGrowth that keeps what it sees.
+class Sights {
+ public:
+  class Plain {
+   public:
+    explicit Plain(Sights& sights) : sights_(sights) {}
+    bool visit(uint32_t v, const PlainFan& fan) {
+      sights_.plain(v, fan);
+      return true;
+    }
+    void close(Sights&) {}
+    void reopen(Sights&) {}
+
+   private:
+    Sights& sights_;
+  };
+
+  Sights(FaceMesh& mesh, const Groups& groups) : records_(groups.count) {
+    RegionGrowth growth(mesh, groups, records_.data(), true, Allocator{});
+    faces_ = growth.faces();
+    EXPECT_TRUE(growth.run(*this, nullptr).ok());
+  }
+  void plain(uint32_t v, const PlainFan& fan) {
+    add(v, sightOf(records_.data(), fan, lookBeyond(faces_, records_.data(), fan, true)));
+  }
+  void fan(uint32_t v, const AnyFan& fan) { add(v, sightOf(records_.data(), fan)); }
+  void seed(uint32_t v, const VertexRecord* neighbour, uint32_t) {
+    add(v, {numberOf(records_.data(), neighbour)});
+  }
+  Status check() const { return {}; }
+
+  std::vector<std::pair<uint32_t, Sight>> list;
+
+ private:
+  void add(uint32_t v, Sight sight) {
+    records_[v].q[3] = kKnown;
+    list.emplace_back(v, std::move(sight));
+  }
+
+  FaceView faces_{nullptr};
+  std::vector<VertexRecord> records_;
+};
+
+TEST(PositionRecording, RestoresWhatTheWalkSaw) {
+  using Kind = PositionRecording::Kind;
+  std::map<Kind, size_t> counts;
+  for (const TestMesh& mesh : surfaces()) {
+    Pair<false> pair(mesh, positionInfo(10));
+    auto& piece = pair.writer().piece;
+    const std::vector<std::pair<uint32_t, Sight>> seen = Sights(piece.mesh, piece.groups).list;
+    const std::vector<int32_t> positions = pair.latticePositions(mesh, 0);
+    std::vector<VertexRecord> records(piece.groups.count);
+    PositionRecording recording;
+    ASSERT_TRUE(recording.record(piece.mesh, piece.groups, records.data(), positions.data()).ok());
+    ASSERT_EQ(recording.visits().size(), seen.size());
+    for (size_t i = 0; i < seen.size(); ++i) {
+      const PositionRecording::Visit& visit = recording.visits()[i];
+      EXPECT_EQ(visit.vertex, seen[i].first);
+      ++counts[static_cast<Kind>(visit.kind)];
+      PlainFan plain;
+      Beyond beyond;
+      AnyFan any;
+      switch (static_cast<Kind>(visit.kind)) {
+        case Kind::kPlain:
+          recording.plain(records.data(), visit, plain, beyond);
+          EXPECT_EQ(sightOf(records.data(), plain, beyond), seen[i].second);
+          break;
+        case Kind::kAny:
+          recording.any(records.data(), visit, any);
+          EXPECT_EQ(sightOf(records.data(), any), seen[i].second);
+          break;
+        case Kind::kSeed:
+          const VertexRecord* neighbour = recording.seedNeighbour(records.data(), visit);
+          EXPECT_EQ(numberOf(records.data(), neighbour), seen[i].second[0]);
+          EXPECT_EQ(recording.beginsComponent(visit), neighbour == nullptr);
+          break;
+      }
+    }
+  }
+  for (const Kind kind : {Kind::kPlain, Kind::kAny, Kind::kSeed}) EXPECT_GT(counts[kind], 10u);
+}
 
 enum class Values : uint8_t { kRandom, kSmooth, kAnyInteger, kJumps, kPlanes };
 
