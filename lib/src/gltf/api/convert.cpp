@@ -465,9 +465,6 @@ Status checkOptions(const ConvertOptions& options) {
     return fail(Error::kBadArgument,
                 "a preview holds attributes, too: it can be made only without indices_only");
   }
-  if (options.preview_triangles != kNoPreviews && !options.simplify) {
-    return fail(Error::kBadArgument, "previews need a function that simplifies: `simplify`");
-  }
   return {};
 }
 
