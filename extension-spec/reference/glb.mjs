@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 
-// GLB files and the layout of accessors, as glTF 2.0 says.
+// GLB files and the layout of accessors, as glTF 2.0 says; of the draft of 2.1, GLB version 3 with one BIN chunk, and int32.
 
 // What is wrong with a file, but not with a payload.
 export class DocumentError extends Error {
@@ -15,22 +15,41 @@ const MAGIC = 0x46546c67, JSON_CHUNK = 0x4e4f534a, BIN_CHUNK = 0x004e4942;
 
 export const COMPONENTS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
 const ROWS_OF_MATRIX = { MAT2: 2, MAT3: 3, MAT4: 4 };
-export const BYTES = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 };
+export const BYTES = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5124: 4, 5125: 4, 5126: 4 };
 
 const aligned = (n, to) => Math.ceil(n / to) * to;
 
 export function readGlb(bytes) {
 	const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
 	if (bytes.length < 20 || view.getUint32(0, true) !== MAGIC) throw new DocumentError('not a GLB file');
-	const chunks = {};
-	for (let offset = 12; offset + 8 <= bytes.length;) {
-		const length = view.getUint32(offset, true);
-		if (offset + 8 + length > bytes.length) throw new DocumentError('a chunk exceeds the file');
-		chunks[view.getUint32(offset + 4, true)] = bytes.subarray(offset + 8, offset + 8 + length);
-		offset += 8 + aligned(length, 4);
+	const chunks = readChunks(bytes, view);
+	const dataOf = (type) => chunks.find((chunk) => chunk.type === type)?.data;
+	const text = dataOf(JSON_CHUNK);
+	if (text === undefined) throw new DocumentError('no JSON chunk');
+	const json = JSON.parse(new TextDecoder().decode(text));
+	const [first, ...others] = json.buffers ?? [];
+	if (others.some(({ chunk }) => chunk !== undefined)) throw new DocumentError('only one BIN chunk can be read');
+	const bin = first?.chunk === undefined ? dataOf(BIN_CHUNK) : chunks[first.chunk]?.data;
+	delete first?.chunk; // what is written is of version 2, where the first buffer has the only one
+	return { json, bin };
+}
+
+// Version 3 has longer headers, lengths of 64 bits, and chunks at multiples of 8.
+function readChunks(bytes, view) {
+	const isVersion3 = view.getUint32(4, true) === 3;
+	const headerBytes = isVersion3 ? 16 : 8;
+	const chunks = [];
+	for (let offset = isVersion3 ? 16 : 12; offset + headerBytes <= bytes.length;) {
+		const { type, encoding, length } = isVersion3
+			? { type: view.getUint32(offset, true), encoding: view.getUint32(offset + 4, true), length: Number(view.getBigUint64(offset + 8, true)) }
+			: { type: view.getUint32(offset + 4, true), encoding: 0, length: view.getUint32(offset, true) };
+		const begin = offset + headerBytes;
+		if (encoding !== 0) throw new DocumentError('a chunk is encoded');
+		if (begin + length > bytes.length) throw new DocumentError('a chunk exceeds the file');
+		chunks.push({ type, data: bytes.subarray(begin, begin + length) });
+		offset = begin + aligned(length, isVersion3 ? 8 : 4);
 	}
-	if (chunks[JSON_CHUNK] === undefined) throw new DocumentError('no JSON chunk');
-	return { json: JSON.parse(new TextDecoder().decode(chunks[JSON_CHUNK])), bin: chunks[BIN_CHUNK] };
+	return chunks;
 }
 
 export function writeGlb(json, bin) {

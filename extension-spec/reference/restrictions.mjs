@@ -130,11 +130,12 @@ function checkAttributes(state, { accessors, numbers, target }, place, { wedges,
 	}
 }
 
-const COMPONENT_TYPES = [5120, 5121, 5122, 5123, 5125, 5126];
+// The component types of accessors by that of the header, which has none of its own for INT.
+const COMPONENT_TYPES = [[5120], [5121], [5122], [5123], [5124, 5125], [5126]];
 function isHeaderOf(attribute, name, accessor, target) {
 	const { semantic, set } = semanticOf(name, accessor);
 	return attribute.semantic === semantic && attribute.set === set && attribute.target === target
-		&& COMPONENT_TYPES[attribute.componentType] === accessor.componentType
+		&& COMPONENT_TYPES[attribute.componentType].includes(accessor.componentType)
 		&& attribute.components === COMPONENTS[accessor.type]
 		&& attribute.normalized === (accessor.normalized ?? false);
 }

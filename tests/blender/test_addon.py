@@ -201,6 +201,16 @@ class Addon(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "quality"):
             bpy.ops.export_scene.gltf_mcc(filepath=str(self.path("both.glb")), step=step, quality=1024)
 
+    def test_export_has_a_preview(self):
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True, app_template="")
+        bpy.ops.mesh.primitive_grid_add(x_subdivisions=230, y_subdivisions=230)
+        bpy.ops.export_scene.gltf_mcc(filepath=str(self.path("preview.glb")), preview_triangles=500)
+        extension, = (primitive["extensions"][EXTENSION]
+                      for mesh in gltf_of(self.path("preview.glb"))["meshes"] for primitive in mesh["primitives"])
+        self.assertIn("bufferView", extension["preview"])
+        mesh, = import_file(self.path("preview.glb")).values()
+        self.assertEqual(len(triangles_of(mesh)), 2 * 230 * 230)
+
     def test_remembered_options(self):
         import_file(Path(SAMPLES, "textured.glb"))
         bpy.context.scene["glTF2ExportSettings"] = {"export_texcoords": False, "of_a_later_version": 1}

@@ -588,6 +588,7 @@ static void test_options_of_documents(const uint8_t* glb, size_t glb_bytes) {
       {"prefer", offsetof(mcc_convert_options, prefer), MCC_PREFER_SPEED},
       {"drop_unused", offsetof(mcc_convert_options, drop_unused), 1},
       {"glb_version", offsetof(mcc_convert_options, glb_version), 3},
+      {"allow_larger", offsetof(mcc_convert_options, allow_larger), 1},
   };
   const double kErrors[] = {NAN, INFINITY, -INFINITY, -1, -DBL_MIN, -DBL_MAX};
   static const float kSteps[] = {0.0f, -0.0f, -1.0f, (float)NAN, (float)INFINITY, (float)-INFINITY};
@@ -615,6 +616,11 @@ static void test_options_of_documents(const uint8_t* glb, size_t glb_bytes) {
   mcc_convert_options_init(&options, sizeof options);
   options.indices_only = options.drop_unused = 1;
   EXPECT(error_of_convert(glb, glb_bytes, &options) == bad);
+  mcc_convert_options_init(&options, sizeof options);
+  options.indices_only = options.preview_triangles = 1;
+  EXPECT(error_of_convert(glb, glb_bytes, &options) == bad);
+  options.indices_only = 0;
+  EXPECT(error_of_convert(glb, glb_bytes, &options) == MCC_OK);
   for (i = 0; i < COUNT_OF(kErrors); ++i) {
     mcc_convert_options_init(&options, sizeof options);
     options.max_position_error = kErrors[i];

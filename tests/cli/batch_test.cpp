@@ -213,6 +213,8 @@ TEST_F(Batch, WhatIsUpToDateIsLeft) {
   EXPECT_EQ(counted("-j 2"), 0u);
   EXPECT_EQ(counted("--position-bits 9"), names_.size());
   EXPECT_EQ(counted("--position-bits 9"), 0u);
+  EXPECT_EQ(counted("--block-triangles 500"), names_.size());
+  EXPECT_EQ(counted("--block-triangles 500 --allow-larger"), names_.size());
   EXPECT_EQ(counted(""), names_.size());
   EXPECT_TRUE(filesOf("out") == before);
 

@@ -265,6 +265,8 @@ TEST_F(Cli, PreviewMayHaveANumber) {
   EXPECT_EQ(optionOf("in.glb --preview 5000 out.glb"), "5000");
   EXPECT_EQ(optionOf("in.glb out.glb --preview=5000"), "5000");
   EXPECT_EQ(run("convert in.glb out.glb --preview=many").status, 2);
+  fs::copy_file(folder_ / "in.glb", folder_ / "model");  // no extension, and yet a file
+  EXPECT_EQ(optionOf("--preview model out.glb"), "\"2 %\"");
   EXPECT_EQ(run("convert in.glb out.glb --preview --indices-only").status, 2);
 }
 
@@ -329,6 +331,18 @@ TEST_F(Cli, WrongUsageSaysWhatIsWrong) {
         std::string("convert in.glb out.glb --quality=") + quality,
         "--quality: takes 16px to 1048576px, or 1/16 to 1/1048576 of the model's size, not " +
             std::string(quality));
+  }
+  for (const char* quality : {"abc", "-5", "1e-9"}) {
+    expectSays(
+        std::string("convert --quality ") + quality + " in.glb out.glb",
+        "--quality: takes 16px to 1048576px, or 1/16 to 1/1048576 of the model's size, not " +
+            std::string(quality));
+  }
+  for (const char* triangles : {"-5", "0", "many", "1e6", "5000px", "4294967295", "99999999999"}) {
+    expectSays(std::string("convert --preview ") + triangles + " in.glb out.glb",
+               "--preview: takes a number of triangles, 1 to 4294967294, not " +
+                   std::string(triangles) +
+                   "; alone, it stands for 2 % of those of each primitive");
   }
   expectSays(
       "convert --quality 2048 in.glb out.glb",

@@ -50,6 +50,7 @@ TEST_F(ReportSchema, DescribesConversions) {
   expectValid(torus + "--max-position-error 0.001 --fallback");
   expectValid(torus + "--step 2^-10");
   expectValid(torus + "--quality 2048px");
+  expectValid(torus + "--block-triangles 500 --preview 5000 --allow-larger");
   expectValid(torus + "--position-lattice 0,0,0,0.001 --keep-vertex-order --keep-triangle-order");
   expectValid(torus + "--indices-only");
   store("triangle.gltf", R"({"asset": {"version": "2.0"}})");

@@ -202,7 +202,8 @@ TEST(QualityPlan, OutliersDoNotSpoilTheRest) {
   const RoundTrip exact = roundTrip(farther, ofPixels(4096));
   ASSERT_EQ(exact.error, "");
   EXPECT_EQ(farthestPoint(sheet.positions, decodedOf(exact, "POSITION")), 0);
-  EXPECT_TRUE(hasNote(exact.report, "more than a lattice of 24 bits for the quality"));
+  EXPECT_TRUE(hasNote(
+      exact.report, "a lattice of more than 24 bits, or one finer than float32, for the quality"));
   EXPECT_EQ(choiceOf(exact.report, "POSITION")->exact_count, 1u);
 }
 

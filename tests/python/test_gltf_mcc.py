@@ -19,6 +19,7 @@ from pathlib import Path
 
 import gltf_mcc
 from gltf_mcc import _library, accessors, arrays, documents, primitives
+from gltf_mcc.meshlets import SHAPES
 
 PROGRAM, SAMPLES, README = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
 
@@ -79,11 +80,31 @@ class Documents(unittest.TestCase):
                         {"prefer": "speed", "block_triangles": 100}, {"position_lattice": (0, 0, 0, 0.125)}, {"step": 2**-7}, {"quality": 1024}):
             self.assertNotEqual(gltf_mcc.convert(data, **options), usual, options)
         self.assertEqual(gltf_mcc.convert(data, thread_count=2, grid="scene"), usual)
+        builder = Builder()
+        builder.primitive(attributes={"POSITION": builder.positions(3)})
+        self.assertEqual(gltf_mcc.convert(builder.glb()), builder.glb())
+        self.assertGreater(len(gltf_mcc.convert(builder.glb(), allow_larger=True)), len(builder.glb()))
+
+    def test_a_preview_is_in_front(self):
+        positions, indices = grid(226)  # just enough triangles
+        builder = Builder()
+        builder.primitive(attributes={"POSITION": builder.accessor("VEC3", FLOAT, 226 * 226, bytes(positions),
+                                                                   min=[0, 0, 0], max=[225, 225, 6])},
+                          indices=builder.accessor("SCALAR", UINT, len(indices), bytes(indices)))
+        glb = builder.glb()
+        whole = gltf_mcc.inspect(gltf_mcc.convert(glb))["payloads"]
+        for asked in (500, gltf_mcc.PREVIEWS_BY_SHARE):
+            small = gltf_mcc.convert(glb, preview_triangles=asked)
+            payloads = gltf_mcc.inspect(small)["payloads"]
+            self.assertEqual(len(payloads), len(whole) + 1)
+            self.assertEqual([payload.get("preview", False) for payload in payloads].count(True), 1)
+            self.assertEqual(gltf_mcc.decode(small), gltf_mcc.decode(gltf_mcc.convert(glb)))
 
     def test_enumerations_are_those_of_the_header(self):
         header = (SAMPLES.parent / "lib/include/mcc/c_api.h").read_text()
         for prefix, own in (("MCC_CODING_", {c.name: c.value for c in _library.Coding}),
                             ("MCC_PREFER_", {n.upper(): k for k, n in enumerate(documents.PREFERENCES)}),
+                            ("MCC_MESHLETS_", {"ROUND": SHAPES.index("round"), "IN_ORDER": SHAPES.index("order")}),
                             ("MCC_GRID_", {n.upper(): k for k, n in enumerate(documents.GRIDS)}),
                             ("MCC_DECODE_TO_", {n.upper(): k for k, n in enumerate(documents.DECODE_TO)})):
             found = re.findall(rf"\b{prefix}(\w+) = (\d+)", header)
@@ -238,6 +259,36 @@ def glb_of(document, binary=b""):
     binary += bytes(-len(binary) % 4)
     chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(binary), b"BIN\0") + binary
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+class MeshletsOfTriangles(unittest.TestCase):
+    def test_they_are_the_triangles(self):
+        positions, indices = grid(20)
+        piece, = gltf_mcc.decode_payload(gltf_mcc.encode_mesh({"POSITION": positions}, indices).payload)
+        for limits in ({}, {"max_vertices": 3, "max_triangles": 512}, {"max_vertices": 32, "max_triangles": 7}):
+            for shape in SHAPES:
+                made = gltf_mcc.build_meshlets(piece.parts[0], 400, shape=shape, **limits)
+                vertices, corners, found = made.vertices.tolist(), made.triangles.tolist(), []
+                for first_vertex, first_byte, vertex_count, triangle_count in made.meshlets.tolist():
+                    self.assertLessEqual(vertex_count, limits.get("max_vertices", 64))
+                    self.assertLessEqual(triangle_count, limits.get("max_triangles", 124))
+                    ends = corners[first_byte:first_byte + 3 * triangle_count]
+                    found += [[vertices[first_vertex + number] for number in ends[k:k + 3]]
+                              for k in range(0, len(ends), 3)]
+                expected = piece.parts[0].tolist()
+                self.assertEqual(*((found, expected) if shape == "order" else (sorted(found), sorted(expected))))
+
+    def test_nothing_and_what_cannot_be(self):
+        one = struct.pack("3I", 0, 1, 2)
+        indices = memoryview(one).cast("I")
+        self.assertEqual(len(gltf_mcc.build_meshlets(memoryview(b"").cast("I"), 0).triangles), 0)
+        self.assertEqual(gltf_mcc.build_meshlets([2, 1, 0], 3).vertices.tolist(), [2, 1, 0])
+        for wrong in ({"max_vertices": 2}, {"max_vertices": 257}, {"max_triangles": 0}, {"vertex_count": 2}):
+            with self.assertRaises(gltf_mcc.Error, msg=str(wrong)):
+                gltf_mcc.build_meshlets(indices, **{"vertex_count": 3, **wrong})
+        for wrong in ({"shape": "flat"}, {"max_vertices": -1}, {"indices": indices[:2]}, {"vertex_count": 2**32}):
+            with self.assertRaises(ValueError, msg=str(wrong)):
+                gltf_mcc.build_meshlets(**{"indices": indices, "vertex_count": 3, **wrong})
 
 
 class Builder:

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -215,15 +216,28 @@ int ConvertCommand::runOne() const {
   return printOut(text);
 }
 
+/// What --preview stands for when it comes alone.
+constexpr const char* kPreviewShare = "2%";
+
+uint32_t previewTrianglesOf(const std::string& text) {
+  if (text == kPreviewShare) return gltf::kPreviewsByShare;
+  uint32_t count = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, code] = std::from_chars(text.data(), end, count);
+  const bool is_number = code == std::errc() && rest == end;
+  if (is_number && count != gltf::kNoPreviews && count < gltf::kPreviewsByShare) return count;
+  throw UsageError("--preview", fmt::format("takes a number of triangles, 1 to {}, not {}; alone, "
+                                            "it stands for 2 % of those of each primitive",
+                                            gltf::kPreviewsByShare - 1, text));
+}
+
 void addPreview(Command& command, gltf::ConvertOptions& options) {
+  const auto text = std::make_shared<std::string>();
   Option& option =
-      command.add("--preview", "[TRIANGLES]", &options.preview_triangles,
+      command.add("--preview", "[TRIANGLES]", text.get(),
                   "Put coarse versions of large primitives in front, for loaders [2 %]");
-  option.limits = between(0, gltf::kPreviewsByShare - 1);
-  option.when_alone = "0";
-  option.then = [&options]() {
-    if (options.preview_triangles == 0) options.preview_triangles = gltf::kPreviewsByShare;
-  };
+  option.when_alone = kPreviewShare;
+  option.then = [text, &options]() { options.preview_triangles = previewTrianglesOf(*text); };
   option.excludes = {"--indices-only"};
 }
 
@@ -256,6 +270,8 @@ void addConvert(Program& program) {
   addPreview(command, state->convert);
   command.addFlag("--fallback", state->convert.fallback,
                   "Also keep the geometry uncompressed, in OUT.HASH.fallback.bin");
+  command.addFlag("--allow-larger", state->convert.allow_larger,
+                  "Compress even where that makes the file larger");
   command.add("--report", "FILE", &state->report, "Write all figures to this JSON file");
   state->comparison.addOptions(command);
   addFormatOption(command, state->common);
@@ -281,7 +297,6 @@ void addConvert(Program& program) {
       "convert scene.gltf small.glb --position-bits 12 --report sizes.json\n"
       "convert scan.glb exact.glb --lossless\n"
       "convert part.glb small.glb --max-position-error 0.05\n"
-      "convert terrain.glb small.glb --keep-vertex-order --keep-triangle-order\n"
       "convert -j 4 -o small models/*.glb\n"
       "convert - - < model.glb | upload";
   command.run = [state]() { return state->run(); };

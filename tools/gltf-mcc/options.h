@@ -62,7 +62,7 @@ struct Option {
   std::string needs;                  ///< the name of an option without which this one has no sense
   int count = 0;                      ///< numbers in one value; 0: as many as there are
   /// What the value is when the name comes alone. The next word is the value if it is a number, a
-  /// fraction or a number of pixels, and belongs to something else otherwise.
+  /// fraction or a number of pixels, or if it can be neither an option nor the name of a file.
   std::string when_alone;
   bool is_list = false;  ///< numbers are separated by commas
   bool is_required = false;

@@ -3,7 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <variant>
+
+#include "host/text.h"
 
 namespace mcc::tool {
 namespace {
@@ -208,10 +211,17 @@ bool mayComeAlone(const Program& program, const std::string& word, std::string& 
   return false;
 }
 
-/// Whether a word is a number, a fraction or a number of pixels, and not the name of a file.
-bool isAmount(std::string_view word) {
-  if (word.ends_with("px")) word.remove_suffix(2);
-  return !word.empty() && word.find_first_not_of("0123456789/.") == std::string_view::npos;
+/// Whether the word after an option that may come alone is its value, even a wrong one: a number, a
+/// fraction, a number of pixels, or what can be neither an option nor the name of a file.
+bool isValue(const std::string& word) {
+  const size_t sign = word.starts_with('-') ? 1 : 0;
+  std::string_view number = std::string_view(word).substr(sign);
+  if (number.ends_with("px")) number.remove_suffix(2);
+  if (!number.empty() && number.find_first_not_of("0123456789/.") == std::string_view::npos)
+    return true;
+  if (sign != 0 || word.find_first_of("./\\") != std::string::npos) return false;
+  std::error_code ignored;
+  return !word.empty() && !std::filesystem::exists(gltf::pathOf(word), ignored);
 }
 
 /// Gives options that come alone their values. CLI11 would take the next word, a file, for one.
@@ -223,7 +233,8 @@ std::vector<std::string> withValues(const Program& program, const std::vector<st
     are_names |= words[i] == "--";
     std::string value;
     if (are_names || !mayComeAlone(program, words[i], value)) continue;
-    if (i + 1 == words.size() || !isAmount(words[i + 1])) all.push_back(value);
+    const bool has_value = i + 1 != words.size() && isValue(words[i + 1]);
+    all.back() += "=" + (has_value ? words[++i] : value);
   }
   return all;
 }

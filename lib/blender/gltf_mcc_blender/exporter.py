@@ -43,6 +43,10 @@ class ExportCompressed(bpy.types.Operator, ExportHelper):
         ("speed", "Speed", "As quick to decode as possible")])
     keep_vertex_order: BoolProperty(
         name="Keep vertex order", description="Decoded vertices come in the order that Blender exports", default=False)
+    preview_triangles: IntProperty(
+        name="Preview", description="If not 0, about how many triangles the coarse versions have that meshes of 100,000 "
+                                    "triangles and more get in front, for web pages to show first; 5000 is usual",
+        default=0, min=0)
 
     use_selection: BoolProperty(name="Selected objects", description="Only selected objects", default=False)
     export_apply: BoolProperty(name="Apply modifiers", description="Excluding armatures", default=False)
@@ -68,6 +72,7 @@ class ExportCompressed(bpy.types.Operator, ExportHelper):
             bits.prop(self, name)
         layout.prop(self, "prefer")
         layout.prop(self, "keep_vertex_order")
+        layout.prop(self, "preview_triangles")
         layout.separator()
         column = layout.column(heading="Include")
         for name in ("use_selection", "export_apply", "export_animations", "use_remembered"):
@@ -96,7 +101,7 @@ class ExportCompressed(bpy.types.Operator, ExportHelper):
             bpy.ops.export_scene.gltf(**{name: value for name, value in options.items() if name in known})
             small = gltf_mcc.convert(
                 plain, lossless=self.lossless, prefer=self.prefer, keep_vertex_order=self.keep_vertex_order,
-                thread_count=os.cpu_count() or 1, **self.precision())
+                preview_triangles=self.preview_triangles, thread_count=os.cpu_count() or 1, **self.precision())
             return os.path.getsize(plain), small
 
     def precision(self):

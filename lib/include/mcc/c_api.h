@@ -502,6 +502,9 @@ typedef struct mcc_document mcc_document;
 /** Which primitives share a lattice of positions; no cracks can open between those that do. */
 enum { MCC_GRID_MESH = 0, MCC_GRID_SCENE = 1, MCC_GRID_PRIMITIVE = 2 };
 
+/** A value of mcc_convert_options::preview_triangles. */
+#define MCC_PREVIEWS_BY_SHARE 0xffffffffu
+
 /** Options of mcc_convert_glb(), see mcc::gltf::ConvertOptions. */
 typedef struct mcc_convert_options {
   size_t struct_bytes;
@@ -534,6 +537,10 @@ typedef struct mcc_convert_options {
   double quality;
   /** 2, 3, or 0: 2 unless the GLB has more than 4 GiB; 3 is that of the draft of glTF 2.1 */
   uint32_t glb_version;
+  /** about how many triangles the coarse versions have that large primitives get in front of
+   * everything else; 0: none, MCC_PREVIEWS_BY_SHARE: 2 % of those of the primitive */
+  uint32_t preview_triangles;
+  uint32_t allow_larger; /**< 1: compresses even where that makes the file larger */
 } mcc_convert_options;
 
 /**

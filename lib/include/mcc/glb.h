@@ -162,11 +162,11 @@ struct ConvertOptions : QuantizationBits {
   Preference prefer = Preference::kBalanced;       ///< smaller payloads, or ones faster to decode
   uint32_t block_triangles = kBlocksByPreference;  ///< see EncodeOptions::block_triangles
   ForeignDecoders decoders;                        ///< for sources that other codecs compressed
-  /// Puts a coarse version of each large primitive in front of everything else, which loaders can
-  /// show while the rest is on its way. About how many triangles it has. Needs `simplify`, and
-  /// cannot be combined with indices_only.
+  /// Puts a coarse version of each large primitive in front of everything else, for loaders to show
+  /// while the rest is on its way. About how many triangles it has. Cannot be combined with
+  /// indices_only.
   uint32_t preview_triangles = kNoPreviews;
-  Simplify simplify;
+  Simplify simplify;  ///< of previews; null: vertices in one cell of a grid are merged
   /// How much a compressed source may decode to, see decodedLimit(); 0: the default. All accessors
   /// that have no bytes in the file may take a 32nd of it together; primitives that would need more
   /// stay as they are.

@@ -30,8 +30,8 @@ enum class MeshletShape : uint8_t {
   /// meshopt_buildMeshlets(), in less than a tenth of the time, but larger spheres
   /// (docs/benchmarks.md), because positions are not looked at.
   kRound = 0,
-  /// The next ones of the list, as meshopt_buildMeshletsScan() does. Two to six times as fast, but
-  /// the decoder's list is a spiral, so that meshlets are long strips.
+  /// The next ones of the list, as meshopt_buildMeshletsScan() does. Three to seven times as fast,
+  /// but the decoder's list is a spiral, so that meshlets are long strips.
   kInOrder = 1,
 };
 

@@ -5,6 +5,7 @@
 #define MCC_SIMPLE_INLINE_H_
 
 #include <cstring>
+#include <memory>
 #include <utility>
 
 #include "mcc/decoded_limit.h"
@@ -123,17 +124,19 @@ inline Status buildMeshlets(std::span<const uint32_t> primitive, uint32_t vertex
   const auto triangle_count = static_cast<uint32_t>(primitive.size() / 3);
   MeshletSizes sizes = meshletBound(triangle_count, options);
   meshlets.meshlets.resize(sizes.meshlet_count);
-  meshlets.vertices.resize(sizes.vertex_count);
   meshlets.triangles.resize(sizes.triangle_bytes);
+  // The bound is three to four times what most meshes need, so nothing is stored beyond that.
+  const std::unique_ptr<uint32_t[]> vertices(new uint32_t[sizes.vertex_count]);
   const Status status = mcc::buildMeshlets(
       {primitive.data(), IndexType::kUint32, triangle_count, vertex_count},
-      {meshlets.meshlets, meshlets.vertices, meshlets.triangles}, sizes, options);
+      {meshlets.meshlets, {vertices.get(), sizes.vertex_count}, meshlets.triangles}, sizes,
+      options);
   if (!status.ok()) {
     meshlets = {};
     return status;
   }
   meshlets.meshlets.resize(sizes.meshlet_count);
-  meshlets.vertices.resize(sizes.vertex_count);
+  meshlets.vertices.assign(vertices.get(), vertices.get() + sizes.vertex_count);
   meshlets.triangles.resize(sizes.triangle_bytes);
   return status;
 }

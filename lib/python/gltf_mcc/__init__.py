@@ -15,13 +15,14 @@ the same time, and release the interpreter's lock while they work.
 """
 from ._library import library as _the_library
 from ._version import VERSION
-from .documents import convert, decode, inspect
+from .documents import PREVIEWS_BY_SHARE, convert, decode, inspect
 from .errors import Error
+from .meshlets import Meshlets, build_meshlets
 from .payloads import Attribute, Encoding, Piece, decode_payload, encode_mesh
 from .primitives import Mesh, Primitive, meshes
 
 __version__ = VERSION
 library_version: str = _the_library.mcc_version().decode()
 
-__all__ = ["Attribute", "Encoding", "Error", "Mesh", "Piece", "Primitive", "convert", "decode", "decode_payload",
-           "encode_mesh", "inspect", "library_version", "meshes"]
+__all__ = ["Attribute", "Encoding", "Error", "Mesh", "Meshlets", "PREVIEWS_BY_SHARE", "Piece", "Primitive",
+           "build_meshlets", "convert", "decode", "decode_payload", "encode_mesh", "inspect", "library_version", "meshes"]

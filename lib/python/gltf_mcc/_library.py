@@ -86,6 +86,24 @@ class PieceView(ctypes.Structure):
                 ("parts", POINTER(PartView)), ("part_count", c_size_t)]
 
 
+class MeshletOptions(ctypes.Structure):
+    _fields_ = [("struct_bytes", c_size_t), ("max_vertices", c_uint32), ("max_triangles", c_uint32),
+                ("shape", c_uint32), ("allocator", Allocator)]
+
+
+class MeshletSizes(ctypes.Structure):
+    _fields_ = [("meshlet_count", c_size_t), ("vertex_count", c_size_t), ("triangle_bytes", c_size_t)]
+
+
+class MeshletTarget(ctypes.Structure):
+    _fields_ = [("meshlets", c_void_p), ("vertices", c_void_p), ("triangles", c_void_p), ("sizes", MeshletSizes)]
+
+
+class TriangleList(ctypes.Structure):
+    _fields_ = [("indices", c_void_p), ("index_bytes", c_uint32), ("triangle_count", c_uint32),
+                ("vertex_count", c_uint32)]
+
+
 class EncodeOptions(ctypes.Structure):
     _fields_ = [("struct_bytes", c_size_t), ("keep_vertex_order", c_uint32), ("keep_triangle_order", c_uint32),
                 ("prefer", c_uint32), ("block_triangles", c_uint32), ("run_jobs", c_void_p),
@@ -100,7 +118,7 @@ class ConvertOptions(ctypes.Structure):
                 ("keep_vertex_order", c_uint32), ("keep_triangle_order", c_uint32), ("thread_count", c_uint32),
                 ("position_lattice", POINTER(Lattice)), ("prefer", c_uint32), ("max_decoded_bytes", c_uint64),
                 ("drop_unused", c_uint32), ("block_triangles", c_uint32), ("step", c_double), ("quality", c_double),
-                ("glb_version", c_uint32)]
+                ("glb_version", c_uint32), ("preview_triangles", c_uint32), ("allow_larger", c_uint32)]
 
 
 class DecodeGlbOptions(ctypes.Structure):
@@ -121,6 +139,10 @@ _FUNCTIONS = [
     ("mcc_payload_attribute", Status, [c_void_p, c_uint32, c_uint32, POINTER(AttributeInfo)]),
     ("mcc_payload_part", Status, [c_void_p, c_uint32, c_uint32, POINTER(c_uint32)]),
     ("mcc_payload_decode", Status, [c_void_p, POINTER(PieceTarget), c_size_t, c_void_p]),
+    ("mcc_meshlet_options_init", None, [POINTER(MeshletOptions), c_size_t]),
+    ("mcc_meshlet_bound", MeshletSizes, [c_uint32, POINTER(MeshletOptions)]),
+    ("mcc_build_meshlets", Status, [POINTER(TriangleList), POINTER(MeshletTarget), POINTER(MeshletSizes),
+                                    POINTER(MeshletOptions)]),
     ("mcc_encode_options_init", None, [POINTER(EncodeOptions), c_size_t]),
     ("mcc_encode", Status, [POINTER(PieceView), c_size_t, POINTER(EncodeOptions), POINTER(c_void_p)]),
     ("mcc_encoding_payload", c_void_p, [c_void_p, POINTER(c_size_t)]),

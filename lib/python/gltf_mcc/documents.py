@@ -16,6 +16,7 @@ Source = Union[bytes, bytearray, memoryview, str, "os.PathLike[str]"]
 PREFERENCES = ("balanced", "size", "speed")
 GRIDS = ("mesh", "scene", "primitive")
 DECODE_TO = ("floats", "integers")
+PREVIEWS_BY_SHARE = 0xffffffff
 
 
 def choice(value: str, names: Tuple[str, ...], option: str) -> int:
@@ -32,7 +33,8 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
             position_lattice: Optional[Sequence[float]] = None, step: float = 0.0,
             quality: float = 0.0, indices_only: bool = False, keep_vertex_order: bool = False, keep_triangle_order: bool = False,
             drop_unused: bool = False, prefer: str = "balanced", block_triangles: Optional[int] = None,
-            thread_count: int = 1, max_decoded_bytes: int = 0, glb_version: int = 0) -> bytes:
+            thread_count: int = 1, max_decoded_bytes: int = 0, glb_version: int = 0, preview_triangles: int = 0,
+            allow_larger: bool = False) -> bytes:
     """Compresses the meshes of a GLB and returns the GLB that results.
 
     The result is decoded and compared with the source before the call returns; where compression gains
@@ -62,6 +64,9 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
         thread_count: how many threads to use
         max_decoded_bytes: bounds what a compressed source may decode to; 0 is the library's default
         glb_version: 2, 3 (of the draft of glTF 2.1), or 0: 2 unless the result has more than 4 GiB
+        preview_triangles: if not 0, about how many triangles the coarse versions have that primitives of 100,000
+            triangles and more get in front of everything else; PREVIEWS_BY_SHARE is 2 % of those of the primitive
+        allow_larger: compresses even where that makes the file larger
 
     Raises:
         Error: the file is not a GLB, or is damaged, or an option is out of range
@@ -98,6 +103,8 @@ def convert(source: Source, *, position_bits: Optional[int] = None, normal_bits:
     options.thread_count = unsigned(thread_count, "thread_count")
     options.max_decoded_bytes = unsigned(max_decoded_bytes, "max_decoded_bytes", 64)
     options.glb_version = unsigned(glb_version, "glb_version")
+    options.preview_triangles = unsigned(preview_triangles, "preview_triangles")
+    options.allow_larger = allow_larger
     return _document(source, lambda glb, document: library.mcc_convert_glb(
         glb, len(glb), ctypes.byref(options), document))
 

@@ -144,7 +144,7 @@ def encode_mesh(attributes: Mapping[str, Any], indices: Any, *, bits: Optional[M
         view.quantization_bits = unsigned((bits or {}).get(name, 0), f"bits of {name}")
     if len(counts) != 1:
         raise ValueError(f"attributes have different numbers of vertices: {sorted(counts)}")
-    lists = [_index_buffer(part, kept) for part in (indices if isinstance(indices, (list, tuple)) and indices
+    lists = [index_buffer(part, kept) for part in (indices if isinstance(indices, (list, tuple)) and indices
                                                     and not isinstance(indices[0], int) else [indices])]
     parts = (_library.PartView * len(lists))(*lists)
     view = _library.PieceView(counts.pop(), views, len(views), parts, len(parts))
@@ -171,7 +171,7 @@ def _encode(view: _library.PieceView, options: _library.EncodeOptions) -> Encodi
         library.mcc_encoding_release(encoding)
 
 
-def _address(memory: bytearray) -> Optional[int]:
+def address(memory: bytearray) -> Optional[int]:
     """Returns where memory is, or None if it is empty. The caller keeps it alive and unchanged in size."""
     return ctypes.addressof(ctypes.c_char.from_buffer(memory)) if memory else None
 
@@ -187,7 +187,7 @@ def _piece(opened: ctypes.c_void_p, number: int) -> Tuple[Piece, _library.PieceT
         check(library.mcc_payload_attribute(opened, number, k, ctypes.byref(facts)))
         element_bytes = library.mcc_element_bytes(ctypes.byref(facts.format))
         memory = bytearray(element_bytes * info.wedge_count)
-        target.data = _address(memory)
+        target.data = address(memory)
         target.stride_bytes = element_bytes
         piece.attributes.append(_attribute(facts, memory, info.wedge_count))
     parts = (_library.PartTarget * info.part_count)()
@@ -195,7 +195,7 @@ def _piece(opened: ctypes.c_void_p, number: int) -> Tuple[Piece, _library.PieceT
         count = ctypes.c_uint32()
         check(library.mcc_payload_part(opened, number, k, ctypes.byref(count)))
         memory = bytearray(12 * count.value)
-        target.indices = _address(memory)
+        target.indices = address(memory)
         target.index_bytes = 4
         piece.parts.append(array_over(memory, "I", (count.value, 3)))
     return piece, _library.PieceTarget(attributes, len(attributes), parts, len(parts))
@@ -237,12 +237,12 @@ def _fill_view(view: _library.AttributeView, name: str, array: Any, target: int,
     view.format.morph_target = target + 1
     memory = bytearray(buffer.tobytes())
     kept.append(memory)
-    view.data = _address(memory)
+    view.data = address(memory)
     view.stride_bytes = columns * buffer.itemsize
     return buffer.shape[0]
 
 
-def _index_buffer(indices: Any, kept: List[Any]) -> _library.PartView:
+def index_buffer(indices: Any, kept: List[Any]) -> _library.PartView:
     """Returns a view of triangles. Narrower indices and lists are copied to 32 bits."""
     if isinstance(indices, (list, tuple)):
         values = indices
@@ -259,7 +259,7 @@ def _index_buffer(indices: Any, kept: List[Any]) -> _library.PartView:
     else:
         memory = bytearray((ctypes.c_uint32 * len(values))(*(unsigned(v, "an index") for v in values)))
     kept.append(memory)
-    return _library.PartView(_address(memory), len(memory) // 4)
+    return _library.PartView(address(memory), len(memory) // 4)
 
 
 def _meaning(name: str) -> Tuple[int, int]:

@@ -23,13 +23,6 @@ uint32_t leastTriangles(const MeshletOptions& options) {
   return std::min((options.max_triangles + 1) / 2, std::max(options.max_vertices / 3, 1u));
 }
 
-template <class Index>
-bool areBelow(const Index* indices, size_t count, uint32_t vertex_count) {
-  Index largest = 0;  // without a branch, so that compilers use vectors
-  for (size_t i = 0; i < count; ++i) largest = std::max(largest, indices[i]);
-  return count == 0 || largest < vertex_count;
-}
-
 /// Grows one meshlet after another. The corners of each vertex that are in no meshlet yet are a
 /// list, in which taken ones are only unlinked when the list is walked.
 template <class Index>
@@ -46,33 +39,78 @@ class Builder {
 
   Status build(const TriangleList& list, MeshletSizes& used) {
     const bool is_round = options_.shape == MeshletShape::kRound;
-    if (!place_.assign(list.vertex_count, 0) || (is_round && !linkCorners(list))) {
+    if (!place_.assign(list.vertex_count, 0) || (is_round && !takeMemory(list))) {
       return fail(Error::kOutOfMemory, "no memory for meshlets");
     }
-    if (is_round) {
-      buildRound(list.triangle_count);
-    } else {
-      for (uint32_t triangle = 0; triangle < list.triangle_count; ++triangle) {
-        if (!fits(triangle)) close();
-        take(triangle);
-      }
-    }
+    if (!(is_round ? linkCorners(list) : buildInOrder(list)))
+      return fail(Error::kBadArgument, "an index is not below the number of vertices");
+    if (is_round) buildRound(list.triangle_count);
     close();
     used = {meshlet_count_, now_.vertex_offset, now_.triangle_offset};
     return {};
   }
 
  private:
+  bool takeMemory(const TriangleList& list) {
+    return first_corner_.assign(list.vertex_count, kNone) &&
+           next_corner_.resize(size_t{3} * list.triangle_count) &&
+           is_taken_.assign(list.triangle_count, 0);
+  }
+
+  /// Returns false at an index that is no vertex.
   bool linkCorners(const TriangleList& list) {
-    if (!first_corner_.assign(list.vertex_count, kNone) ||
-        !next_corner_.resize(size_t{3} * list.triangle_count) ||
-        !is_taken_.assign(list.triangle_count, 0)) {
-      return false;
-    }
     for (uint32_t corner = 3 * list.triangle_count; corner-- > 0;) {
+      if (indices_[corner] >= list.vertex_count) return false;
       next_corner_[corner] = first_corner_[indices_[corner]];
       first_corner_[indices_[corner]] = corner;
     }
+    return true;
+  }
+
+  /// Takes the triangles as they come. Returns false at an index that is no vertex. What changes
+  /// with every triangle is in variables, which become registers: for all a compiler knows, the
+  /// bytes that are stored might be those of a member.
+  bool buildInOrder(const TriangleList& list) {
+    const uint32_t vertex_count = list.vertex_count;
+    uint32_t* const place = place_.data();
+    uint32_t* const vertices = target_.vertices.data();
+    uint8_t* const triangles = target_.triangles.data();
+    const Index* corners = indices_;
+    const Index* const end = corners + size_t{3} * list.triangle_count;
+    uint32_t first = 0;                          // vertex of the meshlet
+    uint32_t last = 0;                           // vertex, plus 1
+    uint32_t roomy = options_.max_vertices - 3;  // up to here, whatever comes has room
+    uint8_t* local = triangles;
+    const uint8_t* full = local + 3 * options_.max_triangles;
+    const auto settle = [&]() {
+      now_.vertex_count = last - first;
+      now_.triangle_count =
+          static_cast<uint32_t>(local - triangles - ptrdiff_t{now_.triangle_offset}) / 3;
+    };
+    for (; corners != end; corners += 3) {
+      if (std::max({corners[0], corners[1], corners[2]}) >= vertex_count) return false;
+      if (local == full || last > roomy) {
+        settle();
+        if (!fits(static_cast<uint32_t>((corners - indices_) / 3))) {
+          close();
+          first = last;
+          roomy = first + options_.max_vertices - 3;
+          local = triangles + now_.triangle_offset;
+          full = local + 3 * options_.max_triangles;
+        }
+      }
+      MCC_UNROLL
+      for (int i = 0; i < 3; ++i) {
+        uint32_t number = place[corners[i]];
+        if (number <= first) {
+          vertices[last] = corners[i];
+          number = ++last;
+          place[corners[i]] = number;
+        }
+        *local++ = static_cast<uint8_t>(number - 1 - first);
+      }
+    }
+    settle();
     return true;
   }
 
@@ -163,10 +201,7 @@ Status build(const TriangleList& list, const MeshletTarget& target, const Meshle
       !canBeInMemory(list.indices, index_count, sizeof(Index), sizeof(Index))) {
     return fail(Error::kBadArgument, "indices is null or longer than memory");
   }
-  const Index* indices = static_cast<const Index*>(list.indices);
-  if (!areBelow(indices, index_count, list.vertex_count))
-    return fail(Error::kBadArgument, "an index is not below the number of vertices");
-  return Builder<Index>(indices, target, options).build(list, used);
+  return Builder<Index>(static_cast<const Index*>(list.indices), target, options).build(list, used);
 }
 
 template <class T>

@@ -23,6 +23,7 @@ namespace mcc::gltf {
 namespace {
 
 static_assert(MCC_GRID_PRIMITIVE == static_cast<int>(Grid::kPrimitive));
+static_assert(MCC_PREVIEWS_BY_SHARE == kPreviewsByShare);
 
 mcc_convert_options defaultConvertOptions() {
   const ConvertOptions defaults;
@@ -51,9 +52,9 @@ Small clampedTo(uint32_t number) {
 }
 
 Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
-  MCC_TRY(
-      checkFlags({options.lossless, options.is_error_relative, options.indices_only,
-                  options.keep_vertex_order, options.keep_triangle_order, options.drop_unused}));
+  MCC_TRY(checkFlags({options.lossless, options.is_error_relative, options.indices_only,
+                      options.keep_vertex_order, options.keep_triangle_order, options.drop_unused,
+                      options.allow_larger}));
   out.position_bits = clampedTo<uint8_t>(options.position_bits);
   out.normal_bits = clampedTo<uint8_t>(options.normal_bits);
   out.texcoord_bits = clampedTo<uint8_t>(options.texcoord_bits);
@@ -75,6 +76,8 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
   out.glb_version = static_cast<GlbVersion>(options.glb_version);
   out.step = options.step;
   out.quality = options.quality;
+  out.preview_triangles = options.preview_triangles;
+  out.allow_larger = options.allow_larger != 0;
   if (options.position_lattice != nullptr) {
     Lattice& lattice = out.position_lattice.emplace();
     std::copy_n(options.position_lattice->origin, 4, lattice.origin);

@@ -431,7 +431,6 @@ Status checkOptions(const ConvertOptions& options) {
   }
   const bool has_error = options.max_position_error > 0;
   const bool has_lattice = options.position_lattice.has_value();
-  const bool has_previews = options.preview_triangles != kNoPreviews;
   const bool is_precise = options.lossless || has_error || has_lattice;
   const struct {
     bool is_refused;
@@ -453,11 +452,9 @@ Status checkOptions(const ConvertOptions& options) {
        "quality excludes lossless, max_position_error, position_lattice and step"},
       {options.indices_only && options.drop_unused,
        "attributes that are not compressed keep all their vertices: unused ones can be dropped "
-       "only "
-       "without indices_only"},
-      {has_previews && options.indices_only,
+       "only without indices_only"},
+      {options.preview_triangles != kNoPreviews && options.indices_only,
        "a preview holds attributes, too: it can be made only without indices_only"},
-      {has_previews && !options.simplify, "previews need a function that simplifies: `simplify`"},
   };
   for (const auto& [is_refused, why] : rules) {
     if (is_refused) return fail(Error::kBadArgument, why);

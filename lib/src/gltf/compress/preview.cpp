@@ -2,7 +2,9 @@
 #include "gltf/compress/preview.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "gltf/compress/vertices.h"
@@ -62,6 +64,119 @@ bool readPositions(const AttributePlan& attribute, const std::vector<uint32_t>& 
   return true;
 }
 
+/// Merges the vertices of a list that lie in one cell of a grid; what is left of the triangles has
+/// corners in three cells. Deterministic: products of floats and sums in a fixed order.
+class Clusters {
+ public:
+  explicit Clusters(const TriangleList& list) : list_(list), cell_of_(list.positions.size() / 3) {}
+
+  /// Returns the triangles that the finest grid leaves which leaves at most so many.
+  std::vector<uint32_t> simplify(uint64_t triangle_count) {
+    uint32_t fitting = 1;  // cells along an edge of the cube around all: one cell leaves nothing
+    uint32_t excessive = kMostCells + 1;
+    while (excessive - fitting > 1) {
+      const uint32_t middle = (fitting + excessive) / 2;
+      putIntoCells(middle);
+      (leftTriangles() <= triangle_count ? fitting : excessive) = middle;
+    }
+    putIntoCells(fitting);
+    return triangles(representatives());
+  }
+
+ private:
+  static constexpr uint32_t kMostCells = 1024;  // 10 bits for each coordinate of a cell
+
+  void putIntoCells(uint32_t cells) {
+    for (size_t vertex = 0; vertex < cell_of_.size(); ++vertex) {
+      uint32_t cell = 0;
+      for (size_t i = 0; i < 3; ++i) {
+        const float place = list_.positions[3 * vertex + i] * static_cast<float>(cells);
+        cell = cell << 10 | std::min(static_cast<uint32_t>(place), cells - 1);
+      }
+      cell_of_[vertex] = cell;
+    }
+  }
+
+  bool isLeft(const uint32_t* corners) const {
+    const uint32_t a = cell_of_[corners[0]];
+    const uint32_t b = cell_of_[corners[1]];
+    const uint32_t c = cell_of_[corners[2]];
+    return a != b && b != c && c != a;
+  }
+
+  uint64_t leftTriangles() const {
+    uint64_t count = 0;
+    for (size_t i = 0; i < list_.triangles.size(); i += 3) {
+      count += isLeft(&list_.triangles[i]) ? 1 : 0;
+    }
+    return count;
+  }
+
+  /// Returns for each vertex the one of its cell that is closest to the mean of all there.
+  std::vector<uint32_t> representatives() const {
+    std::vector<uint32_t> order(cell_of_.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [this](uint32_t a, uint32_t b) {
+      return std::pair(cell_of_[a], a) < std::pair(cell_of_[b], b);
+    });
+    std::vector<uint32_t> chosen(order.size());
+    for (size_t begin = 0; begin < order.size();) {
+      size_t end = begin;
+      double sums[3] = {};
+      for (; end < order.size() && cell_of_[order[end]] == cell_of_[order[begin]]; ++end) {
+        for (size_t i = 0; i < 3; ++i) sums[i] += double{at(order[end], i)};
+      }
+      const auto fromMean = [&](uint32_t vertex) {
+        double square = 0;
+        for (size_t i = 0; i < 3; ++i) {
+          const double away = double{at(vertex, i)} - sums[i] / static_cast<double>(end - begin);
+          square += away * away;
+        }
+        return square;
+      };
+      uint32_t best = order[begin];
+      double least = fromMean(best);
+      for (size_t k = begin + 1; k < end; ++k) {
+        const double square = fromMean(order[k]);
+        if (square < least) best = order[k];
+        least = std::min(least, square);
+      }
+      for (; begin < end; ++begin) chosen[order[begin]] = best;
+    }
+    return chosen;
+  }
+
+  float at(uint32_t vertex, size_t i) const { return list_.positions[size_t{3} * vertex + i]; }
+
+  /// Returns what is left of the triangles, each once.
+  std::vector<uint32_t> triangles(const std::vector<uint32_t>& chosen) const {
+    std::vector<std::array<uint32_t, 3>> all;
+    for (size_t i = 0; i < list_.triangles.size(); i += 3) {
+      const uint32_t* const corners = &list_.triangles[i];
+      if (!isLeft(corners)) continue;
+      auto& triangle = all.emplace_back();
+      for (size_t k = 0; k < 3; ++k) triangle[k] = chosen[corners[k]];
+      std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
+                  triangle.end());
+    }
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    std::vector<uint32_t> corners;
+    for (const auto& triangle : all)
+      corners.insert(corners.end(), triangle.begin(), triangle.end());
+    return corners;
+  }
+
+  const TriangleList& list_;
+  std::vector<uint32_t> cell_of_;  ///< of each vertex
+};
+
+Result simplifyByCells(const TriangleList& list, uint64_t triangle_count,
+                       std::vector<uint32_t>& simplified) {
+  simplified = Clusters(list).simplify(triangle_count);
+  return {};
+}
+
 /// Simplifies the parts of one piece.
 class PieceSimplifier {
  public:
@@ -112,7 +227,9 @@ class PieceSimplifier {
       leaveOut(part, "its positions are not finite");
       return {};
     }
-    const Result result = options_.simplify({positions, whole.triangles}, wanted, triangles);
+    const TriangleList list = {positions, whole.triangles};
+    const Result result = options_.simplify ? options_.simplify(list, wanted, triangles)
+                                            : simplifyByCells(list, wanted, triangles);
     if (!result.ok()) {
       triangles.clear();
       leaveOut(part, result.what);

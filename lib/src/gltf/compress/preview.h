@@ -17,8 +17,8 @@ namespace mcc::gltf {
 /// Makes the previews that options.preview_triangles asks for, in the order of the payloads: one
 /// for each payload with a large primitive. Its pieces are those with such primitives, and the
 /// users of its parts are the primitives that get one. What cannot be simplified gets none, and
-/// `remarks` says so. Takes time linear in the triangles, apart from options.simplify. Error:
-/// options.simplify returns triangles that it must not.
+/// `remarks` says so. Takes time O(n log n), apart from options.simplify. Error: options.simplify
+/// returns triangles that it must not.
 Result makePreviews(const ConvertOptions& options, const std::vector<EncodedPayload>& payloads,
                     std::vector<EncodedPayload>& previews, std::vector<std::string>& remarks);
 

@@ -240,7 +240,8 @@ uint8_t unitBitsFor(double step) {
 namespace {
 
 constexpr const char* kTooFine =
-    " needs more than a lattice of 24 bits for the quality; it stays exact";
+    " would need a lattice of more than 24 bits, or one finer than float32, for the quality; it "
+    "stays exact";
 
 /// Returns a number with at most six digits.
 std::string numberText(double value) {

@@ -232,7 +232,11 @@ Json optionsJson(const ConvertOptions& options) {
                {"color_bits", options.color_bits},
                {"tangent_bits", options.tangent_bits},
                {"weight_bits", options.weight_bits},
-               {"glb_version", static_cast<uint32_t>(options.glb_version)}};
+               {"glb_version", static_cast<uint32_t>(options.glb_version)},
+               {"allow_larger", options.allow_larger}};
+  if (options.block_triangles != kBlocksByPreference) {
+    json["block_triangles"] = options.block_triangles;
+  }
   if (options.preview_triangles == kPreviewsByShare) {
     json["preview_triangles"] = "2 %";
   } else if (options.preview_triangles != kNoPreviews) {
