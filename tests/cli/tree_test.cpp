@@ -164,6 +164,39 @@ TEST_F(Tree, SaysWhatCannotBeDrawn) {
   expectSays("empty.gltf x.svg", 1, "empty.gltf: the file has no meshes");
 }
 
+/// Returns the mean and the number of vertices in the title of a drawing of costs, or zeros.
+std::pair<double, double> costsOf(const std::string& svg) {
+  std::smatch found;
+  const std::regex title("([0-9.]+) bits for the position of each of ([0-9]+),?([0-9]*) vertices");
+  if (!std::regex_search(svg, found, title)) return {0, 0};
+  return {std::stod(found[1]), std::stod(found[2].str() + found[3].str())};
+}
+
+TEST_F(Tree, CostsAreTheBytesOfThePositions) {
+  for (const char* name : {"sphere", "genus3", "moebius", "sheet_with_holes", "non_manifold"}) {
+    ASSERT_EQ(run("convert -q " + samplePath(std::string(name) + ".glb") + " small.glb").status, 0);
+    const std::string svg = draw("--costs small.glb");
+    const std::string report = run("inspect small.glb").out;
+    std::smatch found;
+    const std::regex positions("POSITION +([0-9]+),?([0-9]*) ");
+    ASSERT_TRUE(std::regex_search(report, found, positions)) << report;
+    const double bits = 8 * std::stod(found[1].str() + found[2].str());
+    const auto [mean, count] = costsOf(svg);
+    // Tables count for no vertex, and the last two have large ones. The mean has one decimal.
+    EXPECT_LT(mean * count, 1.01 * bits + 0.05 * count) << name;
+    const bool has_tables = std::string(name).find("_") != std::string::npos;
+    EXPECT_GT(mean * count, has_tables ? 0 : 0.95 * bits - 0.05 * count) << name;
+    EXPECT_EQ(svg.find("mc-tree of"), std::string::npos) << "a tree on it";
+  }
+}
+
+TEST_F(Tree, CostsNeedAPayload) {
+  const ToolResult result = run("tree --costs " + samplePath("torus.glb") + " costs.svg");
+  EXPECT_NE(result.status, 0);
+  EXPECT_NE(result.err.find("is not compressed"), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(folder_.path() / "costs.svg"));
+}
+
 TEST_F(Tree, OfTheReadmeIsUpToDate) {
   const std::string figure = "extension-spec/KHR_mesh_collapse_compression/figures/mc_tree.svg";
   EXPECT_TRUE(contentOf(fs::path(MCC_SOURCE_DIR) / figure) ==

@@ -21,6 +21,8 @@ Command& addTree(Program& program, TreeOptions& options) {
   };
   command.add("--size", "N", &options.width, "Width of the picture in pixels [800]").limits =
       between(64, 8192);
+  command.addFlag("--costs", options.is_of_costs,
+                  "Colour the surface by the bits of its positions, without a tree");
   command.addFlag("-q,--quiet", options.common.is_quiet, "Print errors only");
   addColorOption(command);
   command.usage = "tree [OPTIONS] IN OUT";
@@ -29,10 +31,12 @@ Command& addTree(Program& program, TreeOptions& options) {
       "- for standard output. The edges along which the surface was contracted are drawn on it\n"
       "where they are visible: the trunk that starts at the mc-vertex, and the branches between S\n"
       "and E. Edges across holes are left out. A compressed file is drawn with the tree of its\n"
-      "payload, for all primitives that share a piece; any other with the one convert would make.";
+      "payload, for all primitives that share a piece; any other with the one convert would make.\n"
+      "--costs needs a compressed file, and shows what is mirrored or repeated: it costs little.";
   command.examples =
       "tree model.glb tree.svg\n"
       "tree small.glb tree.svg --mesh 2 --view 1,0,0\n"
+      "tree small.glb costs.svg --costs\n"
       "tree model.glb - --size 400 > small.svg";
   return command;
 }

@@ -22,6 +22,7 @@ struct TreeOptions {
   uint32_t primitive = 0;
   std::vector<double> view = {0.45, 0.35, 1};  ///< from the model to the eye; +Y is up
   uint32_t width = 800;                        ///< width of the picture in pixels
+  bool is_of_costs = false;                    ///< draws the costs of positions, not the tree
 };
 
 struct TilesOptions {

@@ -12,6 +12,7 @@
 #include "program.h"
 #include "progress_line.h"
 #include "standard_streams.h"
+#include "tree_costs.h"
 #include "tree_drawing.h"
 
 #if defined(MCC_HAS_FOREIGN)
@@ -20,6 +21,14 @@
 
 namespace mcc::tool {
 namespace {
+
+/// Finds what the positions of the tree's vertices take.
+gltf::Result costsOf(const McTree& tree, std::vector<float>& bits) {
+  if (!tree.is_of_payload)
+    return gltf::error("", "the file is not compressed; --costs is about what a payload holds");
+  if (tree.piece != 0) return gltf::error("", "--costs is only for the first piece of a payload");
+  return gltf::toResult(positionCosts(tree.payload, bits), "");
+}
 
 int drawFile(const TreeOptions& options) {
   const std::string& input = options.input;
@@ -46,6 +55,7 @@ int drawFile(const TreeOptions& options) {
   if (result.ok()) {
     const WorkProgress progress(options.common.is_quiet, "drawing " + input);
     result = mcTree(source.source(), options.mesh, options.primitive, decoders, tree);
+    if (result.ok() && options.is_of_costs) result = costsOf(tree, drawing.bits);
     if (result.ok()) svg = drawTree(tree, drawing);
   }
   if (!result.ok()) return reportFailure(result, input, "");

@@ -20,6 +20,7 @@ namespace {
 constexpr Color kFront[] = {{196, 200, 212}, {246, 246, 249}};  // dark, light
 constexpr Color kBack[] = {{206, 198, 188}, {240, 235, 228}};
 constexpr uint32_t kShades = 12;
+constexpr uint32_t kCostShades = 4;
 constexpr uint32_t kTrunkColors = 48;
 
 /// Returns for every vertex whether it lies on a visible triangle, or at the same place as one that
@@ -71,11 +72,13 @@ class Drawing {
 
   const PagePoint& point(uint32_t vertex) const { return page_.points[vertex]; }
   double lineWidth() const;
+  Color colorOf(uint32_t triangle, const Lighting& light) const;
   std::string surface() const;
   std::vector<Line> lines() const;
   std::string trees() const;
   bool addPath(const Branch& branch, size_t first, size_t last, PathData& path) const;
   std::string markers() const;
+  std::string describe(Legend& legend) const;
   bool isSeen(uint32_t vertex) const;
   bool hasRoomForMarkers() const { return line_ > 0.0016 * width_; }
 
@@ -104,6 +107,19 @@ double Drawing::lineWidth() const {
   return std::clamp(0.22 * mean, 0.0007 * width_, 0.0042 * width_);
 }
 
+/// Returns a triangle's colour: what its corners take on average, if that is drawn.
+Color Drawing::colorOf(uint32_t triangle, const Lighting& light) const {
+  if (options_.bits.empty()) {
+    const double level = std::floor(std::min(light.shade, 0.999) * kShades) / (kShades - 1);
+    const Color* range = light.is_front ? kFront : kBack;
+    return between(range[0], range[1], level);
+  }
+  double sum = 0;
+  for (uint32_t k = 0; k < 3; ++k) sum += options_.bits[tree_.indices[size_t{3} * triangle + k]];
+  const double level = std::floor(std::min(light.shade, 0.999) * kCostShades) / (kCostShades - 1);
+  return between({0, 0, 0}, costColor(sum / 3), 0.76 + 0.24 * level);
+}
+
 /// Draws the triangles from back to front, without hidden ones.
 std::string Drawing::surface() const {
   struct Face {
@@ -119,7 +135,7 @@ std::string Drawing::surface() const {
   }
   std::stable_sort(faces.begin(), faces.end(),
                    [](const Face& a, const Face& b) { return a.z < b.z; });
-  const bool has_wires = line_ > 0.0014 * width_;
+  const bool has_wires = line_ > 0.0014 * width_ && options_.bits.empty();
   std::string out =
       fmt::format("<g stroke-width=\"{}\" stroke-linejoin=\"round\"{}>\n",
                   fmt::format("{:.2f}", 0.0007 * width_), has_wires ? " stroke=\"#aab0c0\"" : "");
@@ -129,9 +145,7 @@ std::string Drawing::surface() const {
     const PagePoint& b = corner(face.triangle, 1);
     const PagePoint& c = corner(face.triangle, 2);
     const Lighting light = lightingOf(a, b, c);
-    const double level = std::floor(std::min(light.shade, 0.999) * kShades) / (kShades - 1);
-    const Color* range = light.is_front ? kFront : kBack;
-    flat.push_back({{a.x, b.x, c.x}, {a.y, b.y, c.y}, nameOf(between(range[0], range[1], level))});
+    flat.push_back({{a.x, b.x, c.x}, {a.y, b.y, c.y}, nameOf(colorOf(face.triangle, light))});
   }
   for (const FaceGroup& group : groupsOf(flat)) {
     PathData path;
@@ -265,24 +279,36 @@ std::string Drawing::markers() const {
   return out;
 }
 
-std::string Drawing::text() const {
-  Legend legend(width_, page_.height);
+/// Fills the legend, and returns the title of the document.
+std::string Drawing::describe(Legend& legend) const {
+  const std::string name = options_.title.empty() ? "" : options_.title + ": ";
+  if (!options_.bits.empty()) {
+    legend.addCosts(name, options_.bits);
+    return options_.title + ", costs of positions";
+  }
   const auto branch_count = std::count_if(branches_.begin(), branches_.end(),
                                           [](const Branch& branch) { return branch.depth != 0; });
-  legend.addTitle(fmt::format(
-      "{}mc-tree of {} edges, {} branches", options_.title.empty() ? "" : options_.title + ": ",
-      grouped(tree_.edges.size()), grouped(static_cast<uint64_t>(branch_count))));
+  legend.addTitle(fmt::format("{}mc-tree of {} edges, {} branches", name,
+                              grouped(tree_.edges.size()),
+                              grouped(static_cast<uint64_t>(branch_count))));
   legend.addItems(branches_, hasRoomForMarkers());
+  return options_.title + ", mc-tree";
+}
+
+std::string Drawing::text() const {
+  Legend legend(width_, page_.height);
+  const std::string title = describe(legend);
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
       "viewBox=\"0 0 {0} {1}\">\n",
       number(width_), number(legend.bottom() + 0.03 * width_));
-  out +=
-      "<title>" + escaped(options_.title) + ", mc-tree</title>\n<!-- Made by: gltf-mcc tree -->\n";
+  out += "<title>" + escaped(title) + "</title>\n<!-- Made by: gltf-mcc tree -->\n";
   out += "<defs>" + legend.definition() + "</defs>\n";
   out += "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
   out += fmt::format("<g transform=\"translate({} 0)\">\n", number((width_ - page_.width) / 2));
-  return out + surface() + trees() + markers() + "</g>\n" + legend.text() + "</svg>\n";
+  out += surface();
+  if (options_.bits.empty()) out += trees() + markers();
+  return out + "</g>\n" + legend.text() + "</svg>\n";
 }
 
 }  // namespace

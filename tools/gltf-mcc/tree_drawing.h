@@ -27,9 +27,12 @@ struct DrawingOptions {
   double view[3] = {0.45, 0.35, 1};  ///< from the model to the eye; +Y is up
   uint32_t width = 800;              ///< width of the picture in pixels
   std::string title;
+  /// By vertex, what its position takes: colours the surface, on which no tree is drawn. Or empty.
+  std::vector<float> bits;
 };
 
-/// Returns an SVG that shows the surface from far away, with the visible part of the tree on it.
+/// Returns an SVG that shows the surface from far away, with the visible part of the tree on it, or
+/// what its positions take.
 /// Positions that are not finite are left out. The same tree gives the same text.
 std::string drawTree(const McTree& tree, const DrawingOptions& options);
 

@@ -3,13 +3,30 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "table.h"
+
 namespace mcc::tool {
 namespace {
 
 constexpr double kTrunkLength = 5;  // length of the trunk's line in the legend, in font sizes
 constexpr double kLine = 1.7;       // distance of two lines of text, in font sizes
+constexpr uint32_t kCostColors = 7;
 
 }  // namespace
+
+/// Colours are few, so that many triangles share one. The first is close to that of an empty page,
+/// and only for what takes next to nothing.
+Color costColor(double bits) {
+  constexpr Color kFree = {222, 229, 240};
+  constexpr Color kLittle = {252, 233, 184};
+  constexpr Color kMuch = {208, 28, 60};
+  const double share = std::min(bits / kMostBits, 1.0);
+  const double step = std::floor(share * (kCostColors - 1) + 0.5);
+  if (step == 0) return kFree;
+  return between(kLittle, kMuch, (step - 1) / (kCostColors - 2));
+}
 
 Legend::Legend(double width, double top)
     : width_(width),
@@ -69,6 +86,26 @@ void Legend::addItems(std::span<const Branch> branches, bool has_markers) {
       fmt::format(" stroke=\"{}\" stroke-width=\"{}\"", color, number(0.16 * size_));
   add(circle("#fff", ring), 1.2 * size_, "S");
   add(circle(color, ""), 1.2 * size_, "E");
+}
+
+void Legend::addCosts(const std::string& name, std::span<const float> bits) {
+  double all = 0;
+  uint64_t cheap = 0;
+  for (const float b : bits) {
+    all += double{b};
+    cheap += b < 1 ? 1 : 0;
+  }
+  addTitle(fmt::format("{}{:.1f} bits for the position of each of {} vertices, less than 1 for {}",
+                       name, all / static_cast<double>(std::max<size_t>(bits.size(), 1)),
+                       grouped(bits.size()), grouped(cheap)));
+  constexpr double kWidth = 2;  // of a colour, in font sizes
+  for (uint32_t i = 0; i < kCostColors; ++i) {
+    const double least = i * kMostBits / (kCostColors - 1);
+    add(fmt::format("<path d=\"M0 0H{0}\" stroke=\"{1}\" stroke-width=\"{2}\"/>",
+                    number(kWidth * size_), nameOf(costColor(least)), number(size_)),
+        (kWidth + 0.4) * size_,
+        i == 0 ? "under 2 bits" : number(least) + (i + 1 == kCostColors ? " and more" : ""));
+  }
 }
 
 std::string Legend::definition() const {

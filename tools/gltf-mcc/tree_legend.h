@@ -32,6 +32,12 @@ inline Color branchColor(uint32_t depth) {
   return kBranches[std::min<size_t>(depth, std::size(kBranches)) - 1];
 }
 
+/// What a position takes that is as dark as can be, in bits.
+inline constexpr double kMostBits = 24;
+
+/// Returns the colour of a position that takes so many bits.
+Color costColor(double bits);
+
 /// A title and a legend in an SVG. Items wrap to the next line where they do not fit.
 class Legend {
  public:
@@ -41,6 +47,9 @@ class Legend {
   /// Adds the items. `has_markers` says that branches have a ring where they start and a dot where
   /// they end.
   void addItems(std::span<const Branch> branches, bool has_markers);
+
+  /// Adds what the colours of the positions' costs mean, and a title with what they sum up to.
+  void addCosts(const std::string& name, std::span<const float> bits);
 
   /// Returns the gradient that the trunk's item refers to.
   std::string definition() const;

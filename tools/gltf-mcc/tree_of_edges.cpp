@@ -68,12 +68,15 @@ Result readPositions(const Document& document, const Primitive& primitive,
 /// other primitives, too.
 Result treeOfPayload(const Document& document, const ExtensionUse& use, McTree& tree) {
   const std::string where = use.path + "/bufferView";
+  const std::span<const uint8_t> payload = payloadBytes(document, use.view);
+  tree.payload.assign(payload.begin(), payload.end());
   DecodedPayload decoded;
-  MCC_GLTF_TRY(toResult(decoded.payload.open(payloadBytes(document, use.view)), where));
+  MCC_GLTF_TRY(toResult(decoded.payload.open(tree.payload), where));
   MCC_GLTF_TRY(
       checkAgainstPayload(document, PayloadUse{use.view, {&use}, {}}, decoded.payload.info()));
   EdgeTaker taker;
   taker.wanted_piece = static_cast<uint32_t>(use.piece);
+  tree.piece = taker.wanted_piece;
   mcc::DecodeOptions options;
   options.mc_edge = EdgeTaker::take;
   options.mc_edge_user = &taker;

@@ -22,6 +22,8 @@ struct McTree {
   std::vector<uint32_t> indices;  ///< 3 per triangle
   std::vector<Edge> edges;        ///< in the order of the contractions, without those to dummies
   bool is_of_payload = false;     ///< false: the source was compressed in memory to get a tree
+  std::vector<uint8_t> payload;   ///< the payload that the tree is of
+  uint32_t piece = 0;             ///< and its piece
 };
 
 /// Returns the mc-tree of a primitive. Where the primitive is compressed, this is the tree of the
