@@ -2,8 +2,8 @@
 #include "gltf/document/references.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <initializer_list>
 
 #include "mcc/glb.h"
 
@@ -14,13 +14,14 @@ namespace {
 
 constexpr char kRestartExtension[] = "EXT_mesh_primitive_restart";
 
-using Names = std::initializer_list<std::string_view>;
+/// Some names of members; the rest is empty.
+using Names = std::array<std::string_view, 9>;
 
 /// Whether an object has no members but these.
 bool hasOnly(const Json& object, const Names& names, const Names& others = {}) {
   if (!object.is_object()) return false;
   const auto isOneOf = [](const Names& known, const std::string& key) {
-    return std::find(known.begin(), known.end(), key) != known.end();
+    return !key.empty() && std::find(known.begin(), known.end(), key) != known.end();
   };
   for (const auto& [key, value] : object.items()) {
     if (!isOneOf(names, key) && !isOneOf(others, key)) return false;
