@@ -69,11 +69,12 @@ double numberOf(std::string_view spelling) {
   const char* const end = spelling.data() + spelling.size();
   if (std::from_chars(spelling.data(), end, value).ec == std::errc()) return value;
 #endif
-  // It may be too large or too small, which this function tells apart. It wants the locale's point.
+  // It may be too large or too small, which this function tells apart. It wants a decimal
+  // point.
   std::string text(spelling);
   const size_t point = text.find('.');
   if (point != std::string::npos) text.replace(point, 1, std::localeconv()->decimal_point);
-  return std::strtod(text.c_str(), nullptr);
+  return std::strtod(text.c_str(), nullptr);  // which is the one of the locale
 }
 
 bool readUnsigned(std::string_view spelling, uint64_t& value) {
