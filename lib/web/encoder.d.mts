@@ -65,6 +65,11 @@ export interface EncodeOptions {
    * Default: 262,144, for surfaces of twice as many or more, but none with `prefer: 'size'`.
    */
   blockTriangles?: number;
+  /**
+   * Puts coarse versions of primitives of 100,000 triangles and more in front, with about so many triangles, for `loadGlb()` and
+   * `loadWithPreview()` to show first; true: 2 % of those of the primitive. Excludes indicesOnly.
+   */
+  previewTriangles?: number | true;
   /** Compresses even where that makes the file larger. */
   allowLarger?: boolean;
   /** 2, or 3 as in the draft of glTF 2.1. Default: 2, but a copy of the input keeps its version. */

@@ -15,6 +15,7 @@ const BITS = {
 };
 const FLAGS = ['lossless', 'indicesOnly', 'keepVertexOrder', 'keepTriangleOrder', 'isErrorRelative', 'allowLarger',
   'dropUnused'];
+const PREVIEWS_BY_SHARE = 2 ** 32 - 1; // kPreviewsByShare of mcc/glb.h
 /** What the value of another option has to be, and how to say it. */
 const OTHERS = {
   grid: [(grid) => GRIDS.includes(grid), `one of ${GRIDS.join(', ')}`],
@@ -25,6 +26,7 @@ const OTHERS = {
   step: [isStep, 'a power of two from 2 ** -126 to 2 ** 127'],
   quality: [(pixels) => typeof pixels === 'number' && pixels >= 16 && pixels <= 2 ** 20, 'a number of pixels from 16 to 1048576'],
   blockTriangles: [(count) => Number.isInteger(count) && count >= 0 && count < 2 ** 32 - 1, 'a number of triangles, or 0 for no blocks'],
+  previewTriangles: [(count) => count === true || (Number.isInteger(count) && count > 0 && count < PREVIEWS_BY_SHARE), 'a number of triangles, or true'],
   glbVersion: [(version) => version === 2 || version === 3, '2 or 3'],
   fallback: [(fallback) => fallback === false, 'false: a fallback is a second file, which the command line tool writes'],
   meshoptDecoder: [isDecoder, 'MeshoptDecoder of the npm package meshoptimizer, where WebAssembly is supported'],
@@ -36,6 +38,7 @@ const CONTRADICTIONS = {
   step: ['positionBits', 'maxPositionError', 'positionLattice'],
   maxPositionError: ['positionBits', 'positionLattice'],
   positionLattice: ['positionBits'],
+  indicesOnly: ['previewTriangles'],
 };
 
 let source = {};
@@ -210,7 +213,7 @@ function isStep(step) {
 }
 
 function setOptions(exports, options) {
-  const { grid = 'mesh', maxPositionError, prefer = 'balanced', positionLattice, blockTriangles, step, quality, glbVersion } = options;
+  const { grid = 'mesh', maxPositionError, prefer = 'balanced', positionLattice, blockTriangles, step, quality, glbVersion, previewTriangles } = options;
   const flag = (name) => (options[name] ? 1 : 0);
   exports.setBits(...Object.entries(BITS).map(([name, [standard]]) => options[name] ?? standard));
   exports.setModes(flag('lossless'), flag('indicesOnly'), GRIDS.indexOf(grid), flag('keepVertexOrder'),
@@ -221,4 +224,5 @@ function setOptions(exports, options) {
   if (step !== undefined) exports.setStep(step);
   if (quality !== undefined) exports.setQuality(quality);
   if (glbVersion !== undefined) exports.setGlbVersion(glbVersion);
+  if (previewTriangles !== undefined) exports.setPreviewTriangles(previewTriangles === true ? PREVIEWS_BY_SHARE : previewTriangles);
 }

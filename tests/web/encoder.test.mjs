@@ -39,6 +39,7 @@ const CASES = [
   ['two_materials', { grid: 'primitive' }, ['--grid', 'primitive']],
   ['sphere', { prefer: 'speed' }, ['--prefer', 'speed']],
   ['torus', { blockTriangles: 500 }, ['--block-triangles', '500']],
+  ['sphere', { allowLarger: true }, ['--allow-larger']],
 ];
 
 /** Measured angles depend on the C library's arc tangent. */
@@ -88,6 +89,38 @@ test('the version of the GLB', async () => {
   assert.equal(third.report.options.glb_version, 3);
 });
 
+/** A flat sheet of side * side squares as a GLB. */
+function sheet(side) {
+  const row = side + 1;
+  const positions = Float32Array.from({ length: 3 * row * row }, (_, i) => [Math.floor(i / 3) % row, Math.floor(i / 3 / row), 0][i % 3]);
+  const corners = [0, 1, row + 1, 0, row + 1, row];
+  const indices = Uint32Array.from({ length: 6 * side * side }, (_, i) => Math.floor(i / 6 / side) * row + Math.floor(i / 6) % side + corners[i % 6]);
+  const json = {
+    asset: { version: '2.0' },
+    buffers: [{ byteLength: positions.byteLength + indices.byteLength }],
+    bufferViews: [{ buffer: 0, byteLength: positions.byteLength }, { buffer: 0, byteOffset: positions.byteLength, byteLength: indices.byteLength }],
+    accessors: [{ bufferView: 0, type: 'VEC3', componentType: 5126, count: row * row, min: [0, 0, 0], max: [side, side, 0] },
+      { bufferView: 1, type: 'SCALAR', componentType: 5125, count: indices.length }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
+  };
+  let text = JSON.stringify(json);
+  text += ' '.repeat((4 - text.length % 4) % 4);
+  const binary = Buffer.concat([positions, indices].map(({ buffer }) => Buffer.from(buffer)));
+  const words = (...numbers) => Buffer.from(Uint32Array.from(numbers).buffer);
+  return new Uint8Array(Buffer.concat([words(0x46546c67, 2, 28 + text.length + binary.length, text.length, 0x4e4f534a), Buffer.from(text),
+    words(binary.length, 0x004e4942), binary]));
+}
+
+test('a preview', async () => {
+  const glb = sheet(224); // just enough triangles
+  const [usual, some, share] = await Promise.all([{}, { previewTriangles: 500 }, { previewTriangles: true }].map((options) => encodeGlb(glb, options)));
+  const countIn = ({ report }) => report.primitives[0].preview_triangles;
+  assert.equal(countIn(usual), undefined);
+  assert.ok(countIn(some) > 300 && countIn(some) <= 500, `${countIn(some)}`);
+  assert.ok(countIn(share) > 1500 && countIn(share) <= 2007, `${countIn(share)}`);
+  assert.deepEqual(await unpackGlb(some.glb), await unpackGlb(usual.glb));
+});
+
 test('imports nothing', async () => {
   assert.deepEqual(WebAssembly.Module.imports(await WebAssembly.compile(wasm('mcc_encoder'))), []);
 });
@@ -101,7 +134,8 @@ test('what is wrong is said', async () => {
   for (const options of [{ positionBits: 25 }, { normalBits: 1 }, { positionBits: '14' }, { grid: 'world' }, { maxPositionError: 0 },
     { positionbits: 14 }, { lossless: 1 }, { effort: 1 }, { prefer: 'beauty' }, { blockTriangles: -1 }, { positionLattice: [0, 0, 0, 0] }, { step: 0.001 }, { step: '1' }, { glbVersion: 0 }, { glbVersion: 4 }, { glbVersion: '2' },
     { step: 2 ** -127 }, { step: 1, maxPositionError: 1 }, { step: 1, lossless: true }, { quality: 15 }, { quality: 2 ** 20 + 1 },
-    { quality: NaN }, { quality: '64' }, { quality: 64, normalBits: 8 }, { quality: 64, step: 1 }, { quality: 64, lossless: true }, { fallback: true }]) {
+    { quality: NaN }, { quality: '64' }, { quality: 64, normalBits: 8 }, { quality: 64, step: 1 }, { quality: 64, lossless: true }, { fallback: true }, { previewTriangles: 0 },
+    { previewTriangles: false }, { previewTriangles: 2 ** 32 - 1 }, { previewTriangles: 5, indicesOnly: true }]) {
     assert.equal(await codeOf(sample('torus'), options), 'BadArgument', JSON.stringify(options));
   }
   assert.equal(await codeOf('torus.glb'), 'BadArgument');

@@ -72,6 +72,9 @@ MCC_EXPORT("setStep") void mccSetStep(double step) { options.step = step; }
 MCC_EXPORT("setGlbVersion") void mccSetGlbVersion(uint32_t version) {
   options.glb_version = static_cast<mcc::gltf::GlbVersion>(version);
 }
+MCC_EXPORT("setPreviewTriangles") void mccSetPreviewTriangles(uint32_t count) {
+  options.preview_triangles = count;
+}
 MCC_EXPORT("setQuality") void mccSetQuality(double pixels) { options.quality = pixels; }
 
 /// Finds the buffer views that meshoptimizer compressed and that triangles need. Returns 1 on
