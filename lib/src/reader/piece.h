@@ -83,7 +83,12 @@ struct PieceTruth {
 };
 
 /// The inner loops of positions that are compiled for an Io with kFast; the first that fits is
-/// taken. USE(which, modes): see fixedModes(). docs/performance.md says what each is worth.
+/// taken. USE(which, modes): see fixedModes(). docs/performance.md says what each is worth. With
+/// MCC_ONE_LOOP there is one for all choices, which takes half of the time to compile.
+#if defined(MCC_ONE_LOOP)
+#define MCC_PLAIN_MODES(USE) USE(0, 0)
+#define MCC_KIND_MODES(USE)
+#else
 #define MCC_PLAIN_MODES(USE)               \
   USE(kLoopModes, 0)                       \
   USE(kLoopModes, position_mode::kWeights) \
@@ -94,6 +99,7 @@ struct PieceTruth {
   USE(position_mode::kKinds, position_mode::kPalette)               \
   USE(kLoopModes, position_mode::kWeights | position_mode::kPlanes) \
   USE(position_mode::kKinds, position_mode::kPlanes)
+#endif
 
 /// What the stages of a piece make of it, whatever they code through.
 class CodedPiece {
