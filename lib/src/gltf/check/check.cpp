@@ -17,6 +17,10 @@
 namespace mcc::gltf {
 namespace {
 
+bool areEqual(std::span<const uint8_t> a, std::span<const uint8_t> b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end());
+}
+
 class Checker {
  public:
   Checker(const Document& source, const Compressed& compressed, CheckResult& result)
@@ -73,8 +77,7 @@ class Checker {
   /// Whether a view has the bytes of the payload that is being checked.
   bool holds(uint32_t view, const EncodedPayload& payload) {
     const auto [found, is_new] = is_payload_.try_emplace(view, false);
-    if (is_new)
-      found->second = std::ranges::equal(payloadBytes(written_, view), payload.result.payload);
+    if (is_new) found->second = areEqual(payloadBytes(written_, view), payload.result.payload);
     return found->second;
   }
 
@@ -252,8 +255,7 @@ class Checker {
       const auto isSame = [&](uint32_t old_view, uint32_t view) {
         const auto [found, is_new] = is_same.try_emplace({old_view, view}, false);
         if (is_new) {
-          found->second =
-              std::ranges::equal(payloadBytes(source_, old_view), payloadBytes(written_, view));
+          found->second = areEqual(payloadBytes(source_, old_view), payloadBytes(written_, view));
         }
         return found->second;
       };

@@ -84,9 +84,12 @@ void copyElements(const Accessor& accessor, const uint8_t* bytes, uint64_t strid
 }  // namespace
 
 uint64_t AccessorData::firstDifference(const AccessorData& other) const {
-  uint64_t i = 0;
-  while (i < count && std::ranges::equal(element(i), other.element(i))) ++i;
-  return i;
+  for (uint64_t i = 0; i < count; ++i) {
+    const std::span<const uint8_t> a = element(i);
+    const std::span<const uint8_t> b = other.element(i);
+    if (!std::equal(a.begin(), a.end(), b.begin(), b.end())) return i;
+  }
+  return count;
 }
 
 std::string whyUnreadable(const Document& document, const Accessor& accessor) {
