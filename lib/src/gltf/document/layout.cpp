@@ -224,7 +224,11 @@ class LayoutBuilder {
 
   static void setRange(Json& view, uint64_t offset, uint64_t length) {
     view["buffer"] = 0;
-    if (offset != 0 || findMember(view, "byteOffset") != nullptr) view["byteOffset"] = offset;
+    if (offset != 0) {
+      view["byteOffset"] = offset;
+    } else {
+      view.erase("byteOffset");  // 0 is the default
+    }
     view["byteLength"] = length;
   }
 
@@ -283,7 +287,9 @@ class LayoutBuilder {
   }
 
   static Json jsonOf(const NewView& view, uint64_t offset) {
-    Json json = {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", view.byte_count}};
+    Json json = {{"buffer", 0}};
+    if (offset != 0) json["byteOffset"] = offset;
+    json["byteLength"] = view.byte_count;
     if (view.stride_bytes != 0) json["byteStride"] = view.stride_bytes;
     if (view.target != 0) json["target"] = view.target;
     return json;
