@@ -8,6 +8,7 @@
 #include "base/crc32.h"
 #include "format/codings.h"
 #include "format/predictors.h"
+#include "format/starts.h"
 #include "format/usual.h"
 #include "mesh/face_mesh.h"
 
@@ -549,7 +550,8 @@ Status parsePrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes, const
   uint8_t flags = 0;
   MCC_TRY(in.readU8(flags));
   header.flags = flags;
-  if ((header.flags & ~payload_flag::kAll) != 0) {
+  const uint32_t reserved = header.version_minor == 0 ? payload_flag::kTrained : 0;
+  if ((header.flags & (~(payload_flag::kAll | payload_flag::kTrained) | reserved)) != 0) {
     return fail(Error::kBadHeader, "reserved bits are set", kChecksummedFrom);
   }
   if (!decodes::kBlocks && claimsBlocks(bytes))
@@ -558,7 +560,8 @@ Status parsePrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes, const
     uint32_t header_bytes = 0;
     MCC_TRY(in.readVarint(header_bytes));
     header.header_bytes = header_bytes;
-    if (header.singleCoder() || (flags & payload_flag::kManyPieces) == 0)
+    if (header.singleCoder() || (flags & payload_flag::kTrained) != 0 ||
+        (flags & payload_flag::kManyPieces) == 0)
       return fail(Error::kBadHeader, "these flags exclude each other", kChecksummedFrom);
   }
   uint32_t piece_count = 1;

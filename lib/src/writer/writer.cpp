@@ -9,6 +9,7 @@
 
 #include "base/enc_exceptions.h"
 #include "container/enc_payload.h"
+#include "format/starts.h"
 #include "positions/enc_prices.h"
 #include "writer/blocks.h"
 #include "writer/choices.h"
@@ -37,8 +38,9 @@ Status codePayload(std::vector<Plan>& plans, const EncodeSettings& options, Vari
   const bool tries_single =
       vertices <= kSingleCoderVertices && !options.without.has(Feature::kSingleCoder);
   EncoderIo io(true, tries_single);
-  StageModels models;
+  StageModels models(plans);
   PayloadHeader header{Allocator{}};
+  if (plans[0].starts_trained) header.flags |= payload_flag::kTrained;
   MCC_TRY(codeAll(plans, io, models, header, result));
   EncoderIo::Streams streams = io.finish();
   result.payload = writePayload(header, {streams.codes, streams.tokens, streams.raw});
@@ -85,6 +87,9 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeSettings& opt
   }
   if (!result.payload.empty()) return {};
   Variation variation(options.variation);
+  const bool trained = !options.without.has(Feature::kStarts) &&
+                       (!variation.active() || variation.apart().apart().apart().coin());
+  for (Plan& plan : plans) plan.starts_trained = trained;
   MCC_TRY(variation.active() ? varyAll(plans, variation, options.without)
                              : chooseAll(plans, options, jobs));
   return codePayload(plans, options, variation, result);
