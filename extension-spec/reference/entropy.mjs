@@ -27,7 +27,7 @@ const RATE = arrayOf(256, (n) => {
 });
 
 // [A.3.1] The products have 38 bits, which a Number holds but an i32 does not.
-function update(M, outcome) {
+export function update(M, outcome) {
 	if (outcome === 1) M.p -= Math.floor((M.p * RATE[M.n]) / 65536);
 	else M.p += Math.floor(((2 ** 22 - M.p) * RATE[M.n]) / 65536);
 	M.n = Math.min(M.n + 1, 255);
@@ -37,7 +37,7 @@ function update(M, outcome) {
 const schedule = (least, firsts) => arrayOf(64, (uses) => least - 1 + firsts.filter((first) => first <= uses).length);
 export const POSITIONS = schedule(2, [0, 2, 5, 11, 30, 63]);
 export const ATTRIBUTES = schedule(1, [0, 1, 3, 7, 15, 31]);
-function adapt(row, s, shifts) {
+export function adapt(row, s, shifts) {
 	const shift = shifts[row.uses];
 	row.uses = Math.min(row.uses + 1, 63);
 	for (let i = 1; i <= 15; ++i) {

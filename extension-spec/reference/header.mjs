@@ -16,13 +16,13 @@ const valid = (condition, section, message) => failUnless(condition, 'BadHeader'
 export function readHeader(bytes) {
 	const reader = createReader(bytes);
 	const minorVersion = readVersion(reader), checksum = u32(reader), flags = u8(reader);
-	const [SINGLE_CODER, MANY_PIECES, PADDED, BLOCKS] = [0, 1, 2, 3].map((i) => bit(flags, i));
-	const header = { minorVersion, SINGLE_CODER, MANY_PIECES, PADDED, BLOCKS };
+	const [SINGLE_CODER, MANY_PIECES, PADDED, BLOCKS, TRAINED] = [0, 1, 2, 3, 4].map((i) => bit(flags, i));
+	const header = { minorVersion, SINGLE_CODER, MANY_PIECES, PADDED, BLOCKS, TRAINED };
 	const end = header.BLOCKS ? readHeaderLength(reader) : bytes.length;
 	const sum = crc32(bytes.subarray(0, 2), bytes.subarray(6, end));
 	failUnless(sum === checksum, 'BadChecksum', 'A.2.1', 'the checksum of the payload does not match');
-	valid(flags < 16, 'A.2.1', 'reserved flags are set');
-	valid(!BLOCKS || (MANY_PIECES && !SINGLE_CODER), 'A.11.1', 'blocks need many pieces and three streams');
+	valid(flags < (minorVersion === 0 ? 16 : 32), 'A.2.1', 'reserved flags are set');
+	valid(!BLOCKS || (MANY_PIECES && !SINGLE_CODER && !TRAINED), 'A.11.1', 'blocks need many pieces, three streams, untrained models');
 	header.pieces = readPieces(reader, header, pieceCount(reader, header));
 	checkElements(header, bytes.length);
 	readStreams(reader, header, end);

@@ -14,6 +14,7 @@ import { decodePivots, pivotModels } from './pivots.mjs';
 import { decodePositions, positionModels } from './positions.mjs';
 import { creasesOf, decodeSeams, seamModels } from './seams.mjs';
 import { seenPositions } from './seenpositions.mjs';
+import { startTrained } from './starts.mjs';
 import { decodeStitching, stitchModels } from './stitch.mjs';
 import { decodeTriangles, indicesOf, triangleModels } from './triangles.mjs';
 import { createWedges } from './wedges.mjs';
@@ -30,6 +31,7 @@ const createModels = () => ({
 export const decodePayload = (header) => (header.BLOCKS ? [decodeBlocks(header)] : decodePieces(header));
 function decodePieces(header) {
 	const coder = createCoder(header.streams), models = createModels();
+	if (header.TRAINED) startTrained(models);
 	const decoded = header.pieces.map((piece) => decodePiece(coder, models, piece));
 	checkEnds(coder);
 	return decoded.map(resultOf);

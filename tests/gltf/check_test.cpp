@@ -176,7 +176,7 @@ TEST_F(Check, NoticesWrongBounds) {
 TEST_F(Check, NoticesADamagedImage) {
   std::vector<uint8_t> bin = bin_;
   const uint64_t view = compressed_.json["images"][0]["bufferView"];
-  const uint64_t offset = compressed_.json["bufferViews"][view]["byteOffset"];
+  const uint64_t offset = compressed_.json["bufferViews"][view].value("byteOffset", uint64_t{0});
   bin[offset + 5] ^= 1;
   EXPECT_NE(verdict(compressed_.json, bin).find("/images/0: "), std::string::npos);
 }

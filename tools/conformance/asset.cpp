@@ -251,6 +251,7 @@ EncodeSettings ofVersion10() {
   EncodeSettings settings;
   settings.without.add(Feature::kMirrors);
   settings.without.add(Feature::kAnchors);
+  settings.without.add(Feature::kStarts);
   for (const MethodInfo& method : kMethods) {
     for (const PredictorField& field : method) {
       if (field.since != 0) settings.without.add(field.feature);

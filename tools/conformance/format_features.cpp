@@ -44,6 +44,7 @@ class Listing {
     add(header_.singleCoder() ? "single coder" : "three streams",
         header_.singleCoder() ? Sections{"A.3.7"} : Sections{"A.3.3", "A.3.4"});
     if ((header_.flags & payload_flag::kPadded) != 0) add("PADDED", {"A.2.5", "A.2.6"});
+    if (header_.startsTrained()) add("TRAINED", {"A.3.9"});
     if ((header_.flags & payload_flag::kManyPieces) != 0) add("MANY_PIECES", {"A.2.1", "A.3.6"});
     for (size_t i = 0; i < header_.pieces.size(); ++i) addPiece(header_.pieces[i]);
     if (header_.hasBlocks()) addBlocks();

@@ -81,6 +81,7 @@ class Maker {
     mirrors();
     predictorsOfVersion11();
     anchors();
+    trained();
     if (!problems_.empty()) throw std::runtime_error(problems_);
     return std::move(all_);
   }
@@ -1417,6 +1418,16 @@ class Maker {
         {"a vertex is the image of none",
          "A vertex is the image of a candidate that there is not"}};
     searchErrors(asset, "A.6.14", wanted);
+  }
+
+  void trained() {
+    block("trained in 1 0", "A.2.1", Error::kBadHeader, "TRAINED in a payload of version 1.0",
+          encodeSource(trainedSources()[0]), [](HeaderFields& f) { f.setMinorVersion(0); });
+    block("trained blocks", "A.11.1", Error::kBadHeader, "Blocks with TRAINED",
+          encodeSource(blockSources()[0]), [](HeaderFields& f) {
+            f.setMinorVersion(1);
+            f.set("flags", f.get("flags") | payload_flag::kTrained);
+          });
   }
 
   void anchors() {

@@ -1325,6 +1325,7 @@ std::vector<Source> variedOfVersion11(std::vector<Source> all, uint64_t variatio
     source.shows = shows + source.shows;
     source.options.without = {};
     source.options.without.add(Feature::kAnchors);
+    source.options.without.add(Feature::kStarts);
   }
   return all;
 }
@@ -1369,7 +1370,35 @@ std::vector<Source> anchorSources() {
   all.push_back(single("not_manifold", "components that are cut or have pivots",
                        repeated(book(4, 3, 3), 2, 9), [](SourceBuilder& b) { b.positions(9); }));
   all = variedOfVersion11(std::move(all), 2, "anchors_", "Anchors: ");
-  for (Source& source : all) source.options.without = {};
+  for (Source& source : all) {
+    source.options.without = {};
+    source.options.without.add(Feature::kStarts);
+  }
+  return all;
+}
+
+std::vector<Source> trainedSources() {
+  const auto fill = [](SourceBuilder& b) {
+    b.positions(8);
+    b.normals(5);
+    b.texcoords("TEXCOORD_0", 6);
+    b.texcoords("TEXCOORD_1", 6);
+  };
+  std::vector<Source> all;
+  all.push_back(single("values", "normals and two sets of texture coordinates, with seams",
+                       withRandomWedges(withSharedValues(jittered(torus(7, 5), 1, 0.05f), 1), 3, 3),
+                       fill));
+  all.push_back(single("palettes", "palettes", withSharedValues(grid(6, 5), 1), fill));
+  // The variations whose models start trained, without and with palettes.
+  all[0].options.variation = 8;
+  all[1].options.variation = 1;
+  for (Source& source : all) {
+    source.name = "trained_" + source.name;
+    source.shows = "Models that start trained: " + source.shows;
+    source.options.without = {};
+    source.options.without.add(Feature::kMirrors);
+    source.options.without.add(Feature::kAnchors);
+  }
   return all;
 }
 
@@ -1401,6 +1430,7 @@ std::vector<Source> tangentSources() {
     source.options.without = {};
     source.options.without.add(Feature::kMirrors);
     source.options.without.add(Feature::kAnchors);
+    source.options.without.add(Feature::kStarts);
   }
   return all;
 }

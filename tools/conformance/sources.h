@@ -30,6 +30,8 @@ std::vector<Source> rareSources();
 /// Sources of version 1.1, with mirrors. The first has positions on a lattice alone.
 std::vector<Source> mirroredSources();
 std::vector<Source> anchorSources();
+/// Sources of version 1.1 whose models start trained.
+std::vector<Source> trainedSources();
 /// Sources of version 1.1, with normals and texture coordinates of mates.
 std::vector<Source> matesSources();
 

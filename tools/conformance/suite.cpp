@@ -296,6 +296,7 @@ Suite makeSuite() {
   addOfVersion11(tangentSources());
   addOfVersion11(matesSources());
   addOfVersion11(anchorSources());
+  addOfVersion11(trainedSources());
   numberNames(candidates);
   Suite suite;
   Json manifest = {{"extension", gltf::kExtensionName},

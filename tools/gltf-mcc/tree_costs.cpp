@@ -9,6 +9,7 @@
 #include "positions/enc_recording.h"
 #include "reader/outputs.h"
 #include "reader/piece.h"
+#include "reader/starts.h"
 
 namespace mcc::tool {
 namespace {
@@ -119,6 +120,8 @@ Status positionCosts(std::span<const uint8_t> payload, std::vector<float>& bits)
   if (first.attribute_count == 0) return fail(Error::kBadArgument, "its payload has no positions");
   MeasuringIo io(header.streams, header.singleCoder());
   const auto models = std::make_unique<PayloadModels>();
+  if (header.startsTrained() && !startTrained(*models, header.attributes.size() > 1, allocator))
+    return fail(Error::kOutOfMemory, "no memory for the models");
   PieceCoder<MeasuringIo> piece(io, *models, first, header.attributesOf(first), allocator);
   MCC_TRY(measure(io, piece, first));
   const WedgeAt wedge_at = wedgeAt(piece, first.wedge_count);

@@ -83,6 +83,13 @@ inline constexpr bool kSmall = false;
 #define MCC_CALLED_IF_SMALL MCC_INLINE
 #endif
 
+/// For what runs once per payload: where the size of the code counts, that is all that counts.
+#if defined(MCC_COMPACT) && defined(__clang__)
+#define MCC_ONCE __attribute__((minsize, noinline))
+#else
+#define MCC_ONCE
+#endif
+
 /// A table of constants: made by the compiler; in compact code, where it would be data, by
 /// prepare(), before all that looks at it.
 template <auto kMake>

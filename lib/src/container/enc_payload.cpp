@@ -143,7 +143,7 @@ uint32_t writePadding(ByteWriter& out, const PayloadHeader& header, uint64_t hav
 
 /// The lowest version that has everything the payload uses.
 uint8_t neededMinorVersion(const PayloadHeader& header) {
-  uint8_t version = 0;
+  uint8_t version = (header.flags & payload_flag::kSinceMinor1) != 0 ? 1 : 0;
   for (size_t p = 0; p < header.pieces.size(); ++p) {
     if (header.pieces[p].hasMates()) version = std::max(version, uint8_t{1});
     const AttributeInfos attributes = header.attributesOf(header.pieces[p]);

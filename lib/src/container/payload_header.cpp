@@ -549,7 +549,8 @@ Status parsePrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes, const
   uint8_t flags = 0;
   MCC_TRY(in.readU8(flags));
   header.flags = flags;
-  if ((header.flags & ~payload_flag::kAll) != 0) {
+  const uint32_t reserved = header.version_minor == 0 ? payload_flag::kSinceMinor1 : 0;
+  if ((header.flags & (~payload_flag::kAll | reserved)) != 0) {
     return fail(Error::kBadHeader, "reserved bits are set", kChecksummedFrom);
   }
   if (!decodes::kBlocks && claimsBlocks(bytes))
@@ -558,7 +559,7 @@ Status parsePrefix(std::span<const uint8_t> bytes, uint64_t payload_bytes, const
     uint32_t header_bytes = 0;
     MCC_TRY(in.readVarint(header_bytes));
     header.header_bytes = header_bytes;
-    if (header.singleCoder() || (flags & payload_flag::kManyPieces) == 0)
+    if (header.singleCoder() || header.startsTrained() || (flags & payload_flag::kManyPieces) == 0)
       return fail(Error::kBadHeader, "these flags exclude each other", kChecksummedFrom);
   }
   uint32_t piece_count = 1;

@@ -120,6 +120,7 @@ struct PayloadHeader {
   Streams streams;  ///< with blocks, the streams of all of them are in `codes`
 
   bool singleCoder() const { return (flags & payload_flag::kSingleCoder) != 0; }
+  bool startsTrained() const { return (flags & payload_flag::kTrained) != 0; }
   bool hasBlocks() const { return decodes::kBlocks && (flags & payload_flag::kBlocks) != 0; }
   /// Whether all streams of a block are there, see parsePrefix().
   bool isLoaded(const BlockHeader& block) const {

@@ -42,6 +42,7 @@ enum class Feature : uint8_t {
   kMates,
   kTangentRepeats,
   kTangentFaces,
+  kStarts,
 };
 
 struct FeatureInfo {
@@ -82,6 +83,7 @@ inline constexpr FeatureInfo kFeatures[] = {
     {Feature::kMates, "mates", "A.10.20", "no flags for values that a mate has"},
     {Feature::kTangentRepeats, "tangent-repeats", "A.10.19", "no flags for repeated tangents"},
     {Feature::kTangentFaces, "tangent-faces", "A.10.19", "tangents beside normals, not in faces"},
+    {Feature::kStarts, "starts", "A.3.9", "models that have seen nothing"},
 };
 
 /// A set of features.

@@ -26,7 +26,9 @@ inline constexpr uint32_t kSingleCoder = 1u << 0;
 inline constexpr uint32_t kManyPieces = 1u << 1;
 inline constexpr uint32_t kPadded = 1u << 2;
 inline constexpr uint32_t kBlocks = 1u << 3;
-inline constexpr uint32_t kAll = 0x0f;
+inline constexpr uint32_t kTrained = 1u << 4;
+inline constexpr uint32_t kAll = 0x1f;
+inline constexpr uint32_t kSinceMinor1 = kTrained;  ///< what minor version 1 added
 }  // namespace payload_flag
 
 namespace piece_flag {

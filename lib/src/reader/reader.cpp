@@ -18,6 +18,7 @@
 #include "reader/decode_blocks.h"
 #include "reader/decode_piece.h"
 #include "reader/outputs.h"
+#include "reader/starts.h"
 
 namespace mcc {
 
@@ -131,6 +132,10 @@ Status decodePieces(Io& io, const PayloadHeader& header, const PayloadInfo& info
                     std::span<const PieceTarget> targets, const DecodeOptions& options) {
   Placed<PayloadModels> models(options.allocator);
   if (models.make() == nullptr) return fail(Error::kOutOfMemory, "no memory for the models");
+  if (header.startsTrained() &&
+      !startTrained(*models.get(), header.attributes.size() > 1, options.allocator)) {
+    return fail(Error::kOutOfMemory, "no memory for the models");
+  }
   Progress progress(options, header);
   for (uint32_t i = 0; i < targets.size(); ++i) {
     const AttributeInfos infos = info.pieces[i].attributes;

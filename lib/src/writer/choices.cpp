@@ -88,7 +88,7 @@ void setPositions(std::vector<Plan>& plans, const PositionParameters& parameters
 /// Counts what the positions of all pieces cost, with their surfaces.
 Status costWithPositions(std::vector<Plan>& plans, double& bits) {
   EncoderIo io;
-  StageModels models;
+  StageModels models(plans);
   for (Plan& plan : plans) {
     StageRunner runner(io, models, plan);
     MCC_TRY(runner.codeSurface(nullptr));
@@ -294,7 +294,7 @@ Status chooseSurface(Plan& plan, uint32_t start_half_edge, const FeatureSet& wit
 }
 
 Status chooseAll(std::vector<Plan>& plans, const EncodeSettings& options, const Jobs& jobs) {
-  StageModels models;
+  StageModels models(plans);
   EncoderIo io;
   Runners runners;
   for (Plan& plan : plans) {
@@ -350,7 +350,7 @@ void varyAnchors(std::vector<Plan>& plans, std::span<const RecordedPositions> re
 }  // namespace
 
 Status varyAll(std::vector<Plan>& plans, Variation& variation, const FeatureSet& without) {
-  StageModels models;
+  StageModels models(plans);
   EncoderIo io;
   Runners runners;
   for (Plan& plan : plans) {

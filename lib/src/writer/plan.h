@@ -56,6 +56,7 @@ struct Plan {
   AxisPlanes planes[3];
   Mirrors mirrors;                  ///< if the header has them
   Anchors anchors;                  ///< likewise
+  bool starts_trained = false;      ///< the same for all pieces of a payload
   PositionParameters positions_as;  ///< the chosen parameters with fitted tables
   std::vector<uint32_t> wedge_source;
   std::vector<uint32_t> part_of_face;

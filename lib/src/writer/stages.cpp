@@ -9,6 +9,7 @@
 #include "format/predictors.h"
 #include "positions/enc_mirrors.h"
 #include "positions/enc_recording.h"
+#include "reader/starts.h"
 #include "writer/instances.h"
 #include "writer/truth.h"
 
@@ -18,6 +19,12 @@ MCC_ALL_INSTANCES(, EncoderIo)
 MCC_MODES_INSTANCE(, EncoderIo, kAnyModes)
 
 StageModels::StageModels() : models_(std::make_unique<PayloadModels>()) {}
+StageModels::StageModels(const std::vector<Plan>& plans) : StageModels() {
+  if (!plans[0].starts_trained) return;
+  size_t attribute_count = 0;
+  for (const Plan& plan : plans) attribute_count += plan.attributes.size();
+  if (!startTrained(*models_, attribute_count > 1, {})) throwBadAlloc();
+}
 StageModels::~StageModels() = default;
 
 void StageModels::copyFrom(const StageModels& other) {

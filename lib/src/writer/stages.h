@@ -25,6 +25,8 @@ struct PieceTruth;
 class StageModels {
  public:
   StageModels();
+  /// For a payload of these pieces, which are prepared.
+  explicit StageModels(const std::vector<Plan>& plans);
   ~StageModels();
   StageModels(const StageModels&) = delete;
   StageModels& operator=(const StageModels&) = delete;

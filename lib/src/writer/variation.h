@@ -39,8 +39,11 @@ class Variation {
     return all[below(static_cast<uint32_t>(all.size()))];
   }
 
-  /// Returns a sequence for choices that came later, which leave those of this one as they are.
-  Variation apart() const { return Variation((state_ ^ 0xd1b54a32d192ed03u) | 1); }
+  /// Returns a sequence for choices that came later, which leave those of this one as they are:
+  /// another for each odd number.
+  Variation apart(uint64_t number = 1) const {
+    return Variation((state_ ^ number * 0xd1b54a32d192ed03u) | 1);
+  }
 
   /// Returns the mirrors of a piece: those that were found, or any. `sum_bits` is how many bits a
   /// sum may have, with its sign.

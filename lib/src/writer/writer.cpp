@@ -19,6 +19,7 @@ namespace mcc {
 namespace {
 
 constexpr uint32_t kSingleCoderVertices = 400;  ///< up to here the single coder is also tried
+constexpr uint64_t kTrainedVertices = 65536;    ///< beyond, models learn from nothing soon enough
 
 Status codeAll(std::vector<Plan>& plans, EncoderIo& io, StageModels& models, PayloadHeader& header,
                EncodeResult& result) {
@@ -29,16 +30,21 @@ Status codeAll(std::vector<Plan>& plans, EncoderIo& io, StageModels& models, Pay
   return {};
 }
 
+uint64_t verticesOf(const std::vector<Plan>& plans) {
+  uint64_t vertices = 0;
+  for (const Plan& plan : plans) vertices += plan.header.vertex_count;
+  return vertices;
+}
+
 /// Codes the pieces as their plans say. A payload of few vertices is coded in both ways at once.
 Status codePayload(std::vector<Plan>& plans, const EncodeSettings& options, Variation& variation,
                    EncodeResult& result) {
-  uint64_t vertices = 0;
-  for (const Plan& plan : plans) vertices += plan.header.vertex_count;
   const bool tries_single =
-      vertices <= kSingleCoderVertices && !options.without.has(Feature::kSingleCoder);
+      verticesOf(plans) <= kSingleCoderVertices && !options.without.has(Feature::kSingleCoder);
   EncoderIo io(true, tries_single);
-  StageModels models;
+  StageModels models(plans);
   PayloadHeader header{Allocator{}};
+  if (plans[0].starts_trained) header.flags |= payload_flag::kTrained;
   MCC_TRY(codeAll(plans, io, models, header, result));
   EncoderIo::Streams streams = io.finish();
   result.payload = writePayload(header, {streams.codes, streams.tokens, streams.raw});
@@ -56,6 +62,19 @@ Status codePayload(std::vector<Plan>& plans, const EncodeSettings& options, Vari
   }
   accountHeader(static_cast<double>(io.cost()) / kCostOne,
                 streams.codes.size() + streams.tokens.size() + streams.raw.size(), result);
+  return {};
+}
+
+/// Codes the pieces with models that start trained, and without, unless choices are made at random.
+/// Some shapes are unlike all assets.
+Status codeSmaller(std::vector<Plan>& plans, const EncodeSettings& options, Variation& variation,
+                   EncodeResult& result) {
+  EncodeResult untrained = result;
+  MCC_TRY(codePayload(plans, options, variation, result));
+  if (!plans[0].starts_trained || variation.active()) return {};
+  for (Plan& plan : plans) plan.starts_trained = false;
+  MCC_TRY(codePayload(plans, options, variation, untrained));
+  if (untrained.payload.size() <= result.payload.size()) result = std::move(untrained);
   return {};
 }
 
@@ -85,9 +104,13 @@ Status encodePieces(std::span<const PieceView> pieces, const EncodeSettings& opt
   }
   if (!result.payload.empty()) return {};
   Variation variation(options.variation);
+  const bool trained = !options.without.has(Feature::kStarts) &&
+                       verticesOf(plans) <= kTrainedVertices &&
+                       (!variation.active() || variation.apart(3).coin());
+  for (Plan& plan : plans) plan.starts_trained = trained;
   MCC_TRY(variation.active() ? varyAll(plans, variation, options.without)
                              : chooseAll(plans, options, jobs));
-  return codePayload(plans, options, variation, result);
+  return codeSmaller(plans, options, variation, result);
 }
 
 }  // namespace

@@ -310,6 +310,7 @@ TEST(BlockHeaders, HaveWhatBlocksMayHave) {
   };
   expectBad("one block", [](DraftOfBlocks& d) { d.blocks.resize(1); });
   expectBad("a single coder", [](DraftOfBlocks& d) { d.flags |= payload_flag::kSingleCoder; });
+  expectBad("trained models", [](DraftOfBlocks& d) { d.flags |= payload_flag::kTrained; });
   expectBad("other attributes", [](DraftOfBlocks& d) { d.blocks[2].attributes[0].bits = 15; });
   expectBad("no attributes", [](DraftOfBlocks& d) {
     for (DraftBlock& block : d.blocks) block.attributes.clear();

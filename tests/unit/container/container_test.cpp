@@ -379,6 +379,14 @@ TEST(Container, ReservedBits) {
     repairChecksum(payload);
     EXPECT_EQ(parseError(payload), Error::kBadHeader);
   }
+  Draft trained = simpleDraft();
+  trained.flags |= payload_flag::kTrained;
+  std::vector<uint8_t> payload = trained.write();
+  EXPECT_EQ(payload[kVersionOffset], 0x11);
+  EXPECT_EQ(parseError(payload), Error::kOk);
+  payload[kVersionOffset] = kVersionMajor << 4;
+  repairChecksum(payload);
+  EXPECT_EQ(parseError(payload), Error::kBadHeader);
 }
 
 TEST(Container, CountsThatContradictEachOther) {

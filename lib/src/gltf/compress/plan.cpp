@@ -558,18 +558,19 @@ void gatherPayloads(std::vector<PayloadPlan>& payloads) {
 
 Json extensionJson(uint64_t buffer_view, size_t piece_number, const PiecePlan& piece,
                    size_t part_number) {
-  Json json = {{"bufferView", buffer_view}};
-  if (piece_number != 0) json["piece"] = piece_number;
-  if (part_number != 0) json["part"] = part_number;
-  if (piece.attributes.empty()) return json;
   Json attributes = Json::object();
-  std::vector<Json> targets(piece.target_count, Json::object());
+  std::vector<Json> targets(piece.attributes.empty() ? 0 : piece.target_count, Json::object());
   for (size_t id = 0; id < piece.attributes.size(); ++id) {
     const AttributePlan& attribute = piece.attributes[id];
     Json& map = attribute.target == kNone ? attributes : targets[attribute.target];
     map.append(attribute.name, id);  // names are unique
   }
-  json["attributes"] = std::move(attributes);
+  Json json = Json::object();
+  // First, like the attributes of the primitive: brotli makes less of files whose parts resemble.
+  if (!piece.attributes.empty()) json["attributes"] = std::move(attributes);
+  json["bufferView"] = buffer_view;
+  if (piece_number != 0) json["piece"] = piece_number;
+  if (part_number != 0) json["part"] = part_number;
   if (!targets.empty()) json["targets"] = std::move(targets);
   return json;
 }

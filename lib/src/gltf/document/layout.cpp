@@ -221,7 +221,11 @@ class LayoutBuilder {
 
   static void setRange(Json& view, uint64_t offset, uint64_t length) {
     view["buffer"] = 0;
-    if (offset != 0 || findMember(view, "byteOffset") != nullptr) view["byteOffset"] = offset;
+    if (offset != 0) {
+      view["byteOffset"] = offset;
+    } else {
+      view.erase("byteOffset");  // 0 is the default
+    }
     view["byteLength"] = length;
   }
 
@@ -403,7 +407,9 @@ std::vector<ByteRange> accessorRanges(const Document& document, uint32_t index, 
 }
 
 Json NewView::json(uint64_t buffer, uint64_t offset) const {
-  Json json = {{"buffer", buffer}, {"byteOffset", offset}, {"byteLength", byte_count}};
+  Json json = {{"buffer", buffer}};
+  if (offset != 0) json["byteOffset"] = offset;  // 0 is the default
+  json["byteLength"] = byte_count;
   if (stride_bytes != 0) json["byteStride"] = stride_bytes;
   if (target != 0) json["target"] = target;
   return json;
