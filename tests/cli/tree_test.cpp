@@ -200,8 +200,8 @@ TEST_F(Tree, CostsNeedAPayload) {
 TEST_F(Tree, OfTheReadmeIsUpToDate) {
   const std::string figure = "extension-spec/KHR_mesh_collapse_compression/figures/mc_tree.svg";
   EXPECT_TRUE(contentOf(fs::path(MCC_SOURCE_DIR) / figure) ==
-              draw(samplePath("torus.glb") + " --size 520"))
-      << "gltf-mcc tree samples/torus.glb " << figure << " --size 520";
+              draw(samplePath("sphere.glb") + " --size 520"))
+      << "gltf-mcc tree samples/sphere.glb " << figure << " --size 520";
 }
 
 /// Every kind of primitive gets a picture or a reason why not; none ends the program.

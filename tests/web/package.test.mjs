@@ -153,5 +153,5 @@ describe('package', () => {
 
 /** Of one decoder and the script, after brotli: what they take today. The aim is 25,000 for the core. */
 const LARGEST_BYTES = {
-  mcc_decoder_core_simd: 43_500, mcc_decoder_core: 44_500, mcc_decoder_simd: 61_500, mcc_decoder: 66_500,
+  mcc_decoder_core_simd: 43_700, mcc_decoder_core: 45_100, mcc_decoder_simd: 62_000, mcc_decoder: 67_100,
 };
