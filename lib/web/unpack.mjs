@@ -47,9 +47,10 @@ export function readPacked(bytes) {
 export async function decodePacked({ json, chunks, payloads }, decode, budget, glbVersion) {
   const bin = chunks.find(({ type }) => type === BIN_CHUNK)?.data ?? new Uint8Array(0);
   const decoded = await forAll(payloads, (payload) => budget.decode(payload, bytesOfView(json, bin, payload.bufferView), decode));
+  const previews = extensionUses(json).map(({ primitive }) => primitive.extensions[EXTENSION_NAME].preview?.bufferView);
   removeExtension(json);
   try {
-    const newBin = new Bin(json, bin, payloads);
+    const newBin = new Bin(json, bin, payloads, previews);
     payloads.forEach(({ targets }, i) => newBin.fill(targets, decoded[i]));
     const others = chunks.filter(({ type }) => type !== BIN_CHUNK);
     newBin.finish();
@@ -204,7 +205,7 @@ export function membersOf(root, name) {
  * needed, or come after them.
  */
 class Bin {
-  constructor(json, bin, payloads) {
+  constructor(json, bin, payloads, previews) {
     this.json = json;
     this.parts = [];
     this.length = 0;
@@ -215,7 +216,8 @@ class Bin {
     }
     const payloadViews = payloads.flatMap(({ claims }) => claims.map(({ bufferView }) => bufferView));
     const used = membersOf(json, 'bufferView');
-    this.free = [...new Set([...payloadViews, ...fallbackViews])].filter((number) => !used.has(number)).sort((a, b) => b - a);
+    const freed = new Set([...payloadViews, ...fallbackViews, ...previews]);
+    this.free = [...json.bufferViews.keys()].reverse().filter((number) => freed.has(number) && !used.has(number));
     this.#keepOld(bin);
   }
 
