@@ -89,7 +89,7 @@ TEST(TangentRepeats, AllChoicesComeBack) {
       for (const Lie lie : {Lie::kBesideNormals, Lie::kAnywhere, Lie::kOnePerFace}) {
         for (uint64_t seed = 0; seed < 6; ++seed) {
           EncodeSettings settings =
-              without({Feature::kMirrors, Feature::kAnchors, Feature::kMates});
+              without({Feature::kStarts, Feature::kMirrors, Feature::kAnchors, Feature::kMates});
           settings.variation = seed == 0 ? 0 : seed + 10 * normal_bits + 100 * uint64_t(lie);
           const auto bits = static_cast<uint8_t>(2 + 3 * (seed % 4));
           const RoundTrip trip = tripOf(mesh, normal_bits, lie, bits, settings);
@@ -139,8 +139,9 @@ TEST(TangentRepeats, OnePerFacePays) {
 TEST(TangentRepeats, WithoutThemTheVersionIs10) {
   for (const TestMesh& mesh : carriers()) {
     for (const uint64_t variation : {0, 1, 2, 3}) {
-      EncodeSettings settings = without({Feature::kMirrors, Feature::kAnchors, Feature::kMates,
-                                         Feature::kTangentRepeats, Feature::kTangentFaces});
+      EncodeSettings settings =
+          without({Feature::kStarts, Feature::kMirrors, Feature::kAnchors, Feature::kMates,
+                   Feature::kTangentRepeats, Feature::kTangentFaces});
       settings.variation = variation;
       const RoundTrip trip = tripOf(mesh, 8, Lie::kOnePerFace, 8, settings);
       EXPECT_EQ(trip.failure, "") << mesh.name;
