@@ -90,7 +90,7 @@ async function latticeIntegers({ array, componentCount, lattice }, pace) {
 async function normalizedIntegers({ array, componentCount, semantic, bits, lattice }, pace) {
   const isUnitVector = semantic === NORMAL || semantic === TANGENT;
   if (!isUnitVector && semantic !== TEXCOORD && semantic !== COLOR) return undefined;
-  // Of unit vectors: the distance of points of the octahedral grid, or of angles.
+  // Unit vectors have no lattice: this is how far points of the octahedral grid, or angles, are apart.
   const coded = lattice?.[4] ?? 2 / (2 ** bits - 2);
   const type = (isUnitVector ? SIGNED : UNSIGNED).find(({ last }) => 1 / last <= coded * (1 + SLACK));
   const low = isUnitVector ? -1 : 0;

@@ -26,7 +26,8 @@ std::string shortestDigits(T value) {
   };
   std::string shortest = digits();
   const size_t end = shortest.find('e');
-  // Of two that are as near, to_chars takes the even one.
+  // Where two spellings are equally near, to_chars takes the even one. We take the larger one, so
+  // that files stay what earlier versions have written.
   constexpr int kMore = 25;
   const std::string half = shortest.substr(0, end) + '5' + std::string(kMore - 1, '0');
   char& last = shortest[end - 1];

@@ -22,8 +22,7 @@ inline constexpr char kSeamEdgeStarts[] =
     "a.dfa.dfagbfa....hbf....eec.e...eee.e...eee.....dfffffffddffb.ffbbff";
 inline constexpr char kEqualityStarts[] = ".b.a...ab..ab...........fffdbddbf.ddaeeeaeeeabee";
 
-/// What rows have seen: tokens as letters from "a", which is 0, and a comma behind each row but the
-/// last.
+/// What rows have seen: each token is a letter, "a" stands for 0, and commas stand between rows.
 inline constexpr char kTexcoordStarts[] =
     "a,ab,a,a,a,a,ae,agfdheab,aigdhfae,ahifg,ai,a,aa,aba,aaa,aa,a,aiagkj,ai,ajikhga,aiaghjak,aj"
     ",aa,j";

@@ -42,7 +42,7 @@ uint32_t littleEndian(Bytes bytes, size_t at, size_t count) {
 /// Walks over the segments of a JPEG to the first start of frame.
 ImageSize sizeOfJpeg(Bytes bytes) {
   constexpr int kMostSegments = 1000;
-  size_t at = 2;  // behind the start of the image
+  size_t at = 2;  // the marker that begins the image comes first
   for (int i = 0; i < kMostSegments && bigEndian(bytes, at, 1) == 0xff; ++i) {
     const uint32_t marker = bigEndian(bytes, at + 1, 1);
     if (marker == 0xff) {  // a fill byte
@@ -62,7 +62,7 @@ ImageSize sizeOfJpeg(Bytes bytes) {
 
 ImageSize sizeOfWebp(Bytes bytes) {
   switch (bigEndian(bytes, 12, 4)) {
-    case 0x56503820:  // "VP8 ": 14 bits each, behind the start code
+    case 0x56503820:  // "VP8 ": 14 bits each follow the start code
       return {littleEndian(bytes, 26, 2) & 0x3fff, littleEndian(bytes, 28, 2) & 0x3fff};
     case 0x5650384c: {  // "VP8L": 14 bits each, less one
       const uint32_t sizes = littleEndian(bytes, 21, 4);

@@ -41,7 +41,7 @@ bool isBasePosition(const AttributePlan& attribute);
 
 /// Returns "/meshes/0/primitives/1: POSITION".
 std::string whereIs(const PiecePlan& piece, const AttributePlan& attribute);
-/// Notes of attributes that get no lattice, behind whereIs().
+/// Notes of attributes that get no lattice. They follow what whereIs() returns.
 inline constexpr char kNotFinite[] = " has NaN or infinite values and stays exact";
 inline constexpr char kNotUnit[] = " is not of unit length and stays exact";
 inline constexpr char kTooManySteps[] = " spans too many steps and stays exact";
