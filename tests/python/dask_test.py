@@ -78,6 +78,12 @@ def check_tiles(folder, address, running, start_worker):
     print(f"dask: a tileset of {len(expected)} files in 40 parts, one worker killed after {killed_after} files")
 
 
+def address_in(path):
+    """The scheduler's address, or nothing as long as its file is missing or not yet written to its end."""
+    found = re.search(r'"address": "([^"]+)"', path.read_text()) if path.exists() else None
+    return found and found.group(1)
+
+
 def main(folder):
     source, target, plain = folder / "models", folder / "models-small", folder / "plain"
     plain.mkdir()
@@ -92,8 +98,8 @@ def main(folder):
         running.append(start(log, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0",
                              "--no-dashboard", "--no-show", "--scheduler-file", str(folder / "scheduler.json")))
         address_file = folder / "scheduler.json"
-        wait_until(address_file.exists, "the scheduler's start")
-        address = re.search(r'"address": "([^"]+)"', address_file.read_text()).group(1)
+        wait_until(lambda: address_in(address_file), "the scheduler's start")
+        address = address_in(address_file)
 
         def start_worker():
             running.append(start(log, "-m", "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny",
