@@ -1,9 +1,15 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Converts and decodes small documents, and reads what is in them.
+// If the environment names a folder by MCC_KEEP_TRIPS, all three files of each trip are kept there,
+// for tools/check/documents.
 #ifndef MCC_TESTS_GLTF_ROUND_TRIP_H_
 #define MCC_TESTS_GLTF_ROUND_TRIP_H_
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <set>
 #include <string>
@@ -12,6 +18,7 @@
 #include "gltf/document/accessors.h"
 #include "mcc/glb.h"
 #include "support/gltf_builder.h"
+#include "support/validator.h"
 
 namespace mcc::gltf::test {
 
@@ -23,6 +30,18 @@ struct RoundTrip {
   std::string error;
 };
 
+/// Keeps the files of a trip under the name of the test and a number. What a whole suite shares
+/// belongs to no test.
+inline void keepTrip(const RoundTrip& trip, const char* folder) {
+  static uint32_t count = 0;
+  const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+  std::string name = "suite";
+  if (test != nullptr) name = std::string(test->test_suite_name()) + "." + test->name();
+  std::replace(name.begin(), name.end(), '/', '.');
+  mcc::test::Validator(folder).add(name + "." + std::to_string(count++), trip.source,
+                                   trip.converted, trip.decoded);
+}
+
 inline RoundTrip roundTrip(const std::vector<uint8_t>& source, const ConvertOptions& options = {}) {
   RoundTrip trip;
   trip.source = source;
@@ -30,6 +49,8 @@ inline RoundTrip roundTrip(const std::vector<uint8_t>& source, const ConvertOpti
   DecodeReport decode_report;
   if (result.ok()) result = decodeGlb(trip.converted, trip.decoded, decode_report);
   trip.error = result.message();
+  const char* const folder = std::getenv("MCC_KEEP_TRIPS");
+  if (folder != nullptr && result.ok()) keepTrip(trip, folder);
   return trip;
 }
 
