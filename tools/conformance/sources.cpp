@@ -9,6 +9,8 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <span>
 
 #include "support/mesh_generators.h"
 #include "support/mirrored.h"
@@ -1192,15 +1194,15 @@ void mirroredSurfaces(std::vector<Source>& all) {
       single("isolated", "Isolated wedges have no images", withUnused(one, 3, 9), positions));
 }
 
-/// Normals and texture coordinates that a vertex and its images under x -> -x share, `kinds` of
-/// them for the wedges of each vertex.
-TestMesh withSharedValues(TestMesh mesh, uint32_t kinds) {
+/// Normals and texture coordinates that a vertex and its images under x -> -x share. Wedge n of a
+/// vertex has those of kind kinds[n], or of n modulo their number.
+TestMesh withSharedValues(TestMesh mesh, std::span<const uint32_t> kinds) {
   mesh.normals.clear();
   mesh.texcoords.clear();
   std::map<std::array<float, 3>, uint32_t> wedges_at;
   for (uint32_t w = 0; w < mesh.vertexCount(); ++w) {
     const float* p = &mesh.positions[3 * size_t{w}];
-    const uint32_t kind = wedges_at[{p[0], p[1], p[2]}]++ % kinds;
+    const uint32_t kind = kinds[wedges_at[{p[0], p[1], p[2]}]++ % kinds.size()];
     Random random(kind);
     float n[3];
     for (int s = 0; s < 3; ++s) {
@@ -1213,6 +1215,12 @@ TestMesh withSharedValues(TestMesh mesh, uint32_t kinds) {
     for (int c = 0; c < 2; ++c) mesh.texcoords.push_back(random.unit());
   }
   return mesh;
+}
+
+TestMesh withSharedValues(TestMesh mesh, uint32_t kinds) {
+  std::vector<uint32_t> all(kinds);
+  std::iota(all.begin(), all.end(), 0u);
+  return withSharedValues(std::move(mesh), all);
 }
 
 void matesOfSurfaces(std::vector<Source>& all) {
@@ -1297,14 +1305,20 @@ void anglesInHalfAChart(SourceBuilder& b) {
   b.tangents(3, true);
 }
 
+template <class Fill>
+Source inTwoPieces(const char* name, const char* shows, const TestMesh& mesh, Fill fill) {
+  Source source = single(name, shows, mesh, fill);
+  source.pieces.push_back(source.pieces[0]);
+  return source;
+}
+
 Source repeatsInPieces() {
   const auto fill = [](SourceBuilder& b) {
     b.positions(8);
     b.tangents(3, false);
   };
-  Source source = single("tangents_repeats_in_pieces", "points without normals, in two pieces",
-                         torus(5, 4), fill);
-  source.pieces.push_back(source.pieces[0]);
+  Source source = inTwoPieces("tangents_repeats_in_pieces", "points without normals, in two pieces",
+                              torus(5, 4), fill);
   source.options.variation = 3;  // which do not lie in faces
   return source;
 }
@@ -1430,6 +1444,79 @@ std::vector<Source> tangentSources() {
     source.options.without = {};
     source.options.without.add(Feature::kMirrors);
     source.options.without.add(Feature::kAnchors);
+    source.options.without.add(Feature::kStarts);
+  }
+  return all;
+}
+
+namespace {
+
+/// A vertex in the middle of `count` others.
+TestMesh wheel(uint32_t count) {
+  TestMesh mesh = openFan(count - 1);
+  mesh.indices.insert(mesh.indices.end(), {0, count, 1});
+  return jittered(mesh, count, 0.05f);
+}
+
+/// A flat sheet with texture coordinates along its sides. Every other normal is the direction of
+/// the first of them, so that nothing of a tangent is beside it.
+TestMesh alongNormals() {
+  TestMesh mesh = grid(6, 5);
+  mesh.normals.clear();
+  mesh.texcoords.clear();
+  for (size_t i = 0; i < mesh.positions.size(); i += 3) {
+    mesh.positions[i + 2] = 0;
+    const bool is_along = i % 2 == 0;
+    mesh.normals.insert(mesh.normals.end(), {is_along ? 1.0f : 0.0f, 0, is_along ? 0.0f : 1.0f});
+    mesh.texcoords.insert(mesh.texcoords.end(), {mesh.positions[i], mesh.positions[i + 1]});
+  }
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<Source> boundarySources() {
+  std::vector<Source> all;
+  all.push_back(single("wheels", "mates with a corner more than are looked at",
+                       mirrored(translated(wheel(37), 3, 1, 0), 0),
+                       [](SourceBuilder& b) { b.positions(12, Floats::kAny); }));
+  const uint32_t kinds[] = {0, 1, 0, 1, 2, 0, 2, 3};
+  all.push_back(
+      single("equal_wedges", "mates that have a value at two of their first four wedges",
+             withSharedValues(withRandomWedges(mirrored(halfSheet(3, 8, 3), 0), 3, 9), kinds),
+             [](SourceBuilder& b) {
+               b.positions(10);
+               b.normals(4);
+               b.texcoords("TEXCOORD_0", 7);
+             }));
+  all.push_back(inTwoPieces("tangents_along_normals",
+                            "tangents that vanish beside their normals, in two pieces",
+                            alongNormals(), [](SourceBuilder& b) {
+                              b.positions(8);
+                              b.normals(5);
+                              b.texcoords("TEXCOORD_0", 7);
+                              b.tangents(3, false);
+                            }));
+  // On a lattice so coarse that vertices and images meet, which may be mates already.
+  all.push_back(single("meeting", "images at places of other vertices",
+                       withNoise(repeated(jittered(torus(6, 5), 4, 0.05f), 2, 4), 5),
+                       [](SourceBuilder& b) { b.positions(5); }));
+  all.back().options.variation = 3;
+  all.push_back(inTwoPieces(
+      "pieces", "anchors, mates and values of mates in two pieces",
+      repeated(withSharedValues(mirrored(translated(halfSheet(4, 3, 2), 1, 0, 0), 0), 1), 2, 0),
+      [](SourceBuilder& b) {
+        b.positions(10);
+        b.normals(4);
+        b.texcoords("TEXCOORD_0", 7);
+      }));
+  all.push_back(all.back());
+  all.back().name += "_2";
+  all.back().options.variation = 2;
+  for (Source& source : all) {
+    source.name = "boundaries_" + source.name;
+    source.shows = "Boundaries of rules: " + source.shows;
+    source.options.without = {};
     source.options.without.add(Feature::kStarts);
   }
   return all;

@@ -32,6 +32,8 @@ std::vector<Source> mirroredSources();
 std::vector<Source> anchorSources();
 /// Sources of version 1.1 whose models start trained.
 std::vector<Source> trainedSources();
+/// Sources of version 1.1 that lie just beyond limits, and where rules meet that seldom do.
+std::vector<Source> boundarySources();
 /// Sources of version 1.1, with normals and texture coordinates of mates.
 std::vector<Source> matesSources();
 

@@ -297,6 +297,7 @@ Suite makeSuite() {
   addOfVersion11(matesSources());
   addOfVersion11(anchorSources());
   addOfVersion11(trainedSources());
+  addOfVersion11(boundarySources());
   numberNames(candidates);
   Suite suite;
   Json manifest = {{"extension", gltf::kExtensionName},
