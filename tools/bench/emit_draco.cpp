@@ -73,8 +73,7 @@ class Emitter {
 
   gltf::Result finish(std::vector<uint8_t>& file) {
     if (!views_.empty()) {
-      gltf::addExtensionName(json_, "extensionsUsed", kDracoName);
-      gltf::addExtensionName(json_, "extensionsRequired", kDracoName);
+      gltf::listExtension(json_, kDracoName, true);
     }
     const gltf::Layout layout = gltf::layOut(document_, views_, json_);
     std::span<uint8_t> bin;

@@ -37,10 +37,6 @@ class SameBytes {
     uint64_t result_begin = 0;
     size_t number = 0;
   };
-  struct Sweep;
-
-  bool isMovedAlike(const Pair& a, const Pair& b) const;
-  bool differs(const Pair& pair, Sweep& sweep) const;
 
   const Document& source_;
   const Document& result_;

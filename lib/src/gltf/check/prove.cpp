@@ -84,18 +84,9 @@ Deviation latticeDeviation(const double* source, const double* decoded, uint32_t
   return deviation;
 }
 
-/// Returns a number with six digits, spelt as in JSON whatever the locale of the program is.
-std::string number(double value) {
-  if (!std::isfinite(value)) return std::isnan(value) ? "nan" : "inf";
-  const double places = value == 0 ? 0 : 5 - std::floor(std::log10(std::abs(value)));
-  const double power = std::pow(10, std::abs(places));
-  return Json(places > 0 ? std::round(value * power) / power : std::round(value / power) * power)
-      .dump();
-}
-
 Result tooFar(const AttributeReport& report, uint64_t index, double off, bool is_angle) {
   return error("", report.name + " of decoded vertex " + std::to_string(index) + " is off by " +
-                       number(off) + (is_angle ? " degrees" : "") + ", more than promised");
+                       numberText(off) + (is_angle ? " degrees" : "") + ", more than promised");
 }
 
 Result compareExact(const AccessorData& source, const AccessorData& decoded,

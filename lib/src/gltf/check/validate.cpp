@@ -323,24 +323,12 @@ class Validator {
   std::set<uint32_t> payload_buffers_;  ///< buffers that hold payloads
 };
 
-std::vector<std::string> textsOf(const Json& list) {
-  std::vector<std::string> texts;
-  for (const Json& text : list) {
-    if (text.is_string()) texts.push_back(text.get<std::string>());
-  }
-  return texts;
-}
-
 void describe(const Json& json, ValidationReport& report) {
-  const auto assetText = [&](const char* key) -> std::string {
-    const Json* asset = findMember(json, "asset");
-    const Json* text = asset == nullptr ? nullptr : findMember(*asset, key);
-    return text != nullptr && text->is_string() ? text->get<std::string>() : "";
-  };
-  report.version = assetText("version");
-  report.generator = assetText("generator");
-  report.extensions_used = textsOf(arrayOf(json, "extensionsUsed"));
-  report.extensions_required = textsOf(arrayOf(json, "extensionsRequired"));
+  const Json& asset = json["asset"];
+  report.version = asset.value("version", "");
+  report.generator = asset.value("generator", "");
+  report.extensions_used = extensionNames(json, "extensionsUsed");
+  report.extensions_required = extensionNames(json, "extensionsRequired");
   visitPrimitives(json, [&](const PrimitiveRef&, const Json&) { ++report.primitive_count; });
 }
 

@@ -219,11 +219,8 @@ class Applier {
       namePreview(preview.plan, view);
     }
     // addFallback() removes the requirement again.
-    const bool uses_mesh_extension = usesMeshExtension();
-    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-      addExtensionName(compressed_.json, list, kExtensionName);
-      if (!uses_mesh_extension) removeExtensionName(compressed_.json, list, kMeshExtension);
-    }
+    listExtension(compressed_.json, kExtensionName, true);
+    if (!usesMeshExtension()) listExtension(compressed_.json, kMeshExtension, false);
     return views;
   }
 

@@ -14,6 +14,7 @@
 
 #include "format/codings.h"
 #include "gltf/compress/quantize.h"
+#include "gltf/document/extension_uses.h"
 #include "gltf/document/package.h"
 #include "gltf/document/references.h"
 #include "json/json.h"
@@ -150,20 +151,13 @@ void TextureUses::findTextureSizes() {
 
 double TextureUses::imageTexels(const Json& image) const {
   ImageSize size;
-  uint64_t number = 0;
+  const uint32_t view = indexOf(findMember(image, "bufferView"), document_.views.size());
   const Json* uri = findMember(image, "uri");
   if (uri != nullptr && uri->is_string() && isDataUri(uri->text())) {
     std::vector<uint8_t> bytes;
     if (decodeDataUri(uri->text(), "", bytes).ok()) size = imageSizeOf(bytes);
-  } else if (asUnsigned(findMember(image, "bufferView"), number) &&
-             number < document_.views.size()) {
-    const BufferView& view = document_.views[number];
-    if (!view.isCoded() && view.buffer < document_.buffers.size()) {
-      const std::span<const uint8_t> buffer = document_.buffers[view.buffer];
-      const uint64_t offset = std::min<uint64_t>(view.offset, buffer.size());
-      const uint64_t length = std::min<uint64_t>(view.length, buffer.size() - offset);
-      size = imageSizeOf(buffer.subspan(offset, length));
-    }
+  } else if (view != kNone && !document_.views[view].isCoded()) {
+    size = imageSizeOf(payloadBytes(document_, view));
   }
   const double texels = std::max(size.width, size.height);
   return texels == 0 ? kUsualTexels : texels;
@@ -227,6 +221,16 @@ double octahedralBound(uint32_t bits) {
   return std::sqrt(18.0) * half_cell * (1 + half_cell) + 1e-6;
 }
 
+std::string numberText(double value) {
+  if (!std::isfinite(value)) return std::isnan(value) ? "nan" : "inf";
+  const double places = value == 0 ? 0 : 5 - std::floor(std::log10(std::abs(value)));
+  const double power = std::pow(10, std::abs(places));
+  const std::string text =
+      Json(places > 0 ? std::round(value * power) / power : std::round(value / power) * power)
+          .dump();
+  return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
+}
+
 uint8_t octahedralBitsFor(double radians) {
   return fewestBits(kMinUnitBits, kMaxUnitBits, radians, octahedralBound);
 }
@@ -242,13 +246,6 @@ namespace {
 constexpr const char* kTooFine =
     " would need a lattice of more than 24 bits, or one finer than float32, for the quality; it "
     "stays exact";
-
-/// Returns a number with at most six digits.
-std::string numberText(double value) {
-  const double power = std::pow(10, 5 - std::floor(std::log10(value)));
-  const std::string text = Json(std::round(value * power) / power).dump();
-  return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
-}
 
 /// Lengths of the vectors of an attribute, without its fourth component and without those that are
 /// zero.

@@ -103,6 +103,10 @@ uint8_t octahedralBitsFor(double radians);
 /// Returns the fewest bits of the lattice from 0 to 1 that have no longer step.
 uint8_t unitBitsFor(double step);
 
+/// Returns a number with at most six digits, spelt as in JSON whatever the locale of the program
+/// is.
+std::string numberText(double value);
+
 /// Does for options.quality, which is not 0, what planQuantization() does for bits: chooses those
 /// of every float attribute, and lattices that keep within the errors that the quality stands for.
 /// Notes say what stays exact, and which triangles lose their area. `choices` says what was chosen.

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <unordered_map>
 
 #include "gltf/document/layout.h"
@@ -47,31 +46,12 @@ class ByteOwners {
   static constexpr size_t kSomebodyElse = ~size_t{0};
   static constexpr size_t kMostOwners = 64;
 
-  explicit ByteOwners(size_t owner_count) : freed_(owner_count, 0), segments_of_(owner_count) {}
-
-  void add(const std::vector<ByteRange>& ranges, size_t owner) {
-    for (const ByteRange& range : ranges) {
-      if (range.begin == range.end) continue;
-      edges_.push_back({range.buffer, range.begin, true, owner});
-      edges_.push_back({range.buffer, range.end, false, owner});
-    }
-  }
-
-  /// Counts the bytes, after all ranges were added.
-  void count() {
-    std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
-      return std::tie(a.buffer, a.offset, a.is_begin) < std::tie(b.buffer, b.offset, b.is_begin);
+  ByteOwners(OwnedRanges ranges, size_t owner_count)
+      : freed_(owner_count, 0), segments_of_(owner_count) {
+    ranges.visit([&](uint64_t bytes, const OwnedRanges::Owners& owners) {
+      if (owners.size() <= kMostOwners && !owners.contains(kSomebodyElse))
+        addSegment(bytes, owners);
     });
-    std::map<size_t, uint32_t> open;  // owner -> open ranges
-    for (size_t i = 0; i < edges_.size(); ++i) {
-      const Edge& edge = edges_[i];
-      uint32_t& count_of = open[edge.owner];
-      count_of += edge.is_begin ? 1 : ~0u;
-      if (count_of == 0) open.erase(edge.owner);
-      if (open.empty() || open.size() > kMostOwners || open.count(kSomebodyElse) != 0) continue;
-      addSegment(edges_[i + 1].offset - edge.offset,
-                 open);  // a range is open, so i is not last
-    }
   }
 
   const std::vector<uint64_t>& freed() const { return freed_; }
@@ -94,23 +74,15 @@ class ByteOwners {
   }
 
  private:
-  struct Edge {
-    uint32_t buffer;
-    uint64_t offset;
-    bool is_begin;
-    size_t owner;
-  };
-
   /// A run of bytes with the same owners. `bytes` is 0 when one of them has left.
   struct Segment {
     uint64_t bytes;
     std::vector<size_t> owners;
   };
 
-  void addSegment(uint64_t bytes, const std::map<size_t, uint32_t>& open) {
-    if (bytes == 0) return;
+  void addSegment(uint64_t bytes, const OwnedRanges::Owners& owners) {
     Segment segment = {bytes, {}};
-    for (const auto& [owner, ignored] : open) {
+    for (const auto& [owner, ignored] : owners) {
       segment.owners.push_back(owner);
       segments_of_[owner].push_back(segments_.size());
       freed_[owner] += bytes;
@@ -119,7 +91,6 @@ class ByteOwners {
     segments_.push_back(std::move(segment));
   }
 
-  std::vector<Edge> edges_;
   std::vector<Segment> segments_;
   std::vector<uint64_t> freed_;
   std::vector<std::vector<size_t>> segments_of_;  ///< by owner
@@ -143,26 +114,28 @@ struct OwnedPiece {
 ByteOwners ownersOf(const Document& document, const std::vector<bool>& in_other_use,
                     const std::vector<OwnedPiece>& pieces, size_t owner_count) {
   std::vector<bool> is_ours(document.accessors.size(), false);
-  ByteOwners owners(owner_count);
+  OwnedRanges ranges;
+  const auto add = [&](uint32_t accessor, size_t owner) {
+    for (const ByteRange& range :
+         accessorRanges(document, accessor, document.foreign.keep_numbers)) {
+      ranges.add(range, owner);
+    }
+  };
   for (const OwnedPiece& owned : pieces) {
     visitAccessors(*owned.piece, [&](uint32_t accessor) {
       if (in_other_use[accessor]) return;
       is_ours[accessor] = true;
-      owners.add(accessorRanges(document, accessor, document.foreign.keep_numbers), owned.owner);
+      add(accessor, owned.owner);
     });
   }
   for (uint32_t accessor = 0; accessor < is_ours.size(); ++accessor) {
-    if (is_ours[accessor]) continue;
-    owners.add(accessorRanges(document, accessor, document.foreign.keep_numbers),
-               ByteOwners::kSomebodyElse);
+    if (!is_ours[accessor]) add(accessor, ByteOwners::kSomebodyElse);
   }
   for (const Json& image : arrayOf(document.json, "images")) {
     const uint32_t view = indexOf(findMember(image, "bufferView"), document.views.size());
-    if (view == kNone) continue;
-    owners.add({viewRange(document, view)}, ByteOwners::kSomebodyElse);
+    if (view != kNone) ranges.add(viewRange(document, view), ByteOwners::kSomebodyElse);
   }
-  owners.count();
-  return owners;
+  return {std::move(ranges), owner_count};
 }
 
 const AccessorData& positionsOf(const PiecePlan& piece) {

@@ -259,9 +259,7 @@ void editJson(const PayloadDecoder& decoder, Json& json) {
   for (const ExtensionUse& use : decoder.uses()) {
     removeExtension(meshes[use.mesh]["primitives"][use.primitive]);
   }
-  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-    removeExtensionName(json, list, kExtensionName);
-  }
+  listExtension(json, kExtensionName, false);
 }
 
 }  // namespace

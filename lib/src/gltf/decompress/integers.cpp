@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -64,20 +63,13 @@ class IntegerAccessors {
   /// called at most once per accessor.
   void replace(uint32_t index, ComponentType type, bool normalized,
                const std::vector<int32_t>& values) {
-    static constexpr int kGlTypes[] = {5120, 5121, 5122, 5123, 5125, 5126};
     replaced_.insert(index);
     Accessor accessor = source_.accessors[index];
     accessor.component_type = type;
     const uint32_t bytes = componentBytes(type);
-    const uint32_t components = accessor.componentCount();
     std::vector<uint8_t> tight;
-    std::vector<int32_t> low(components, std::numeric_limits<int32_t>::max());
-    std::vector<int32_t> high(components, std::numeric_limits<int32_t>::min());
-    for (size_t i = 0; i < values.size(); ++i) {
-      for (uint32_t b = 0; b < bytes; ++b)
-        tight.push_back(static_cast<uint8_t>(values[i] >> 8 * b));
-      low[i % components] = std::min(low[i % components], values[i]);
-      high[i % components] = std::max(high[i % components], values[i]);
+    for (const int32_t value : values) {
+      for (uint32_t b = 0; b < bytes; ++b) tight.push_back(static_cast<uint8_t>(value >> 8 * b));
     }
     Json& json = json_[index];
     NewView& view = views_[json["bufferView"].get<uint64_t>() - kFirstNewView];
@@ -85,8 +77,7 @@ class IntegerAccessors {
     json["componentType"] = kGlTypes[static_cast<size_t>(type)];
     json.erase("normalized");
     if (normalized) json["normalized"] = true;
-    if (findMember(json, "min") != nullptr) json["min"] = low;
-    if (findMember(json, "max") != nullptr) json["max"] = high;
+    setBounds(boundsOf(tight, type, accessor.componentCount()), type, false, json);
   }
 
  private:
@@ -681,9 +672,7 @@ void storeIntegers(const Document& source, const CodedAttributes& coded, Json& j
   IntegerAccessors accessors(source, coded, json, views);
   bool needs_extension = PositionStore(source, accessors, json, views, notes).run();
   needs_extension |= storeIntegerValues(source, coded, accessors, notes);
-  if (!needs_extension) return;
-  addExtensionName(json, "extensionsUsed", "KHR_mesh_quantization");
-  addExtensionName(json, "extensionsRequired", "KHR_mesh_quantization");
+  if (needs_extension) listExtension(json, "KHR_mesh_quantization", true);
 }
 
 }  // namespace mcc::gltf

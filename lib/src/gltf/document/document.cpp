@@ -28,16 +28,10 @@ constexpr TypeName kTypeNames[] = {{"SCALAR", 1, 1}, {"VEC2", 1, 2}, {"VEC3", 1,
                                    {"MAT2", 2, 2},   {"MAT3", 3, 3}, {"MAT4", 4, 4}};
 
 bool componentTypeOf(uint64_t gl_type, ComponentType& type) {
-  switch (gl_type) {
-    case 5120: type = ComponentType::kInt8; return true;
-    case 5121: type = ComponentType::kUint8; return true;
-    case 5122: type = ComponentType::kInt16; return true;
-    case 5123: type = ComponentType::kUint16; return true;
-    case 5124: type = ComponentType::kInt32; return true;
-    case 5125: type = ComponentType::kUint32; return true;
-    case 5126: type = ComponentType::kFloat32; return true;
-    default: return false;
-  }
+  const auto found = std::find(std::begin(kGlTypes), std::end(kGlTypes), gl_type);
+  if (found == std::end(kGlTypes)) return false;
+  type = static_cast<ComponentType>(found - std::begin(kGlTypes));
+  return true;
 }
 
 Result readString(const Json& object, const char* key, const std::string& path, std::string& text) {
@@ -83,19 +77,16 @@ Result checkShape(const Json& json) {
 /// Returns the object by which an extension codes a view, or marks a buffer whose bytes need not
 /// exist; null if there is none.
 const Json* codingOf(const Json& view_or_buffer, std::string& extension) {
-  const Json* extensions = findMember(view_or_buffer, "extensions");
-  if (extensions == nullptr) return nullptr;
   for (const char* name : kViewExtensions) {
     extension = name;
-    if (const Json* coding = findMember(*extensions, name)) return coding;
+    if (const Json* coding = extensionOf(view_or_buffer, name)) return coding;
   }
   return nullptr;
 }
 
 bool isPlaceholder(const Json& buffer) {
   std::string ignored;
-  const Json* coding = codingOf(buffer, ignored);
-  const Json* flag = coding == nullptr ? nullptr : findMember(*coding, "fallback");
+  const Json* flag = findMember(codingOf(buffer, ignored), "fallback");
   return flag != nullptr && *flag == true;
 }
 
@@ -123,21 +114,20 @@ class BufferLoader {
     const std::string path = at("/buffers", number);
     uint64_t length = 0;
     MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, length));
-    const bool has_uri = findMember(json, "uri") != nullptr;
     size_t chunk = kNoChunk;
     MCC_GLTF_TRY(findChunk(json, path, number, chunk));
-    // The views of a placeholder are decoded from other buffers.
-    if (isPlaceholder(json) || (!has_uri && chunk == kNoChunk)) {
-      document_.buffers.emplace_back();
-      document_.same_buffers.push_back(number);
-      document_.missing_buffers.push_back(!isPlaceholder(json));
+    document_.buffers.emplace_back();
+    document_.same_buffers.push_back(number);
+    document_.missing_buffers.push_back(false);
+    if (isPlaceholder(json)) return {};  // its views are decoded from other buffers
+    if (chunk == kNoChunk && findMember(json, "uri") == nullptr) {
+      document_.missing_buffers.back() = true;
       return {};
     }
     std::span<const uint8_t> bytes;
     std::string file;
     if (chunk != kNoChunk) {
       bytes = glb_->chunks[chunk].bytes;
-      chunk_users_[chunk].push_back(number);
     } else {
       MCC_GLTF_TRY(fetch(json, path, file, bytes));
     }
@@ -145,36 +135,31 @@ class BufferLoader {
       return error(path + "/byteLength", std::to_string(length) + " bytes are announced but only " +
                                              std::to_string(bytes.size()) + " are there");
     }
-    document_.buffers.push_back(bytes.first(length));
-    document_.same_buffers.push_back(number);
-    document_.missing_buffers.push_back(false);
-    if (!file.empty()) users_[file].push_back(number);
+    document_.buffers.back() = bytes.first(length);
+    if (chunk != kNoChunk || !file.empty()) users_[{chunk, file}].push_back(number);
     return {};
   }
 
   /// Finds buffers of the same file or chunk, after all were loaded.
   void findSame() {
-    for (const auto& [file, users] : users_) shareLongest(users);
-    for (const auto& [chunk, users] : chunk_users_) shareLongest(users);
+    const auto isShorter = [&](uint32_t a, uint32_t b) {
+      return document_.buffers[a].size() < document_.buffers[b].size();
+    };
+    for (const auto& [place, users] : users_) {
+      const uint32_t longest = *std::max_element(users.begin(), users.end(), isShorter);
+      for (const uint32_t user : users) document_.same_buffers[user] = longest;
+    }
   }
 
   /// Returns the numbers of the chunks with buffers.
   std::set<size_t> usedChunks() const {
     std::set<size_t> used;
-    for (const auto& [chunk, users] : chunk_users_) used.insert(chunk);
+    for (const auto& [place, users] : users_) used.insert(place.first);
     return used;
   }
 
  private:
   static constexpr size_t kNoChunk = ~size_t{0};
-
-  void shareLongest(const std::vector<uint32_t>& users) {
-    const auto isShorter = [&](uint32_t a, uint32_t b) {
-      return document_.buffers[a].size() < document_.buffers[b].size();
-    };
-    const uint32_t longest = *std::max_element(users.begin(), users.end(), isShorter);
-    for (const uint32_t user : users) document_.same_buffers[user] = longest;
-  }
 
   /// Finds the chunk of a GLB that holds a buffer: the one it names, or that of the first buffer.
   Result findChunk(const Json& json, const std::string& path, uint32_t number,
@@ -209,8 +194,8 @@ class BufferLoader {
       MCC_GLTF_TRY(relativePathOf(uri, path + "/uri", file));
       file = withoutDots(file);  // "a.bin" and "./a.bin" are one file
     }
-    if (const auto known = users_.find(file); known != users_.end()) {
-      bytes = files_[file];
+    if (const auto known = files_.find(file); known != files_.end()) {
+      bytes = known->second;
       return {};
     }
     document_.storage.emplace_back();
@@ -226,8 +211,8 @@ class BufferLoader {
   const FileReader& read_file_;
   Document& document_;
   std::map<std::string, std::span<const uint8_t>> files_;  ///< bytes by path
-  std::map<std::string, std::vector<uint32_t>> users_;     ///< numbers of buffers by path
-  std::map<size_t, std::vector<uint32_t>> chunk_users_;    ///< and by chunk
+  /// Numbers of buffers by the chunk or the path of the file that holds them.
+  std::map<std::pair<size_t, std::string>, std::vector<uint32_t>> users_;
 };
 
 /// Parses where the bytes of a view are, and finds the part of them that exists. `json` is the
@@ -391,59 +376,6 @@ Result parseAccessor(const Document& document, const Json& json, const std::stri
   return {};
 }
 
-/// Collects the accessors that a primitive names.
-class PrimitiveParser {
- public:
-  PrimitiveParser(size_t accessor_count, Primitive& primitive)
-      : accessor_count_(accessor_count), primitive_(primitive) {}
-
-  void parse() {
-    const Json& json = *primitive_.json;
-    if (const Json* attributes = findMember(json, "attributes")) {
-      addMap(*attributes, "attributes", kNone);
-    } else {
-      note("", "\"attributes\" is missing");
-    }
-    if (const Json* targets = findMember(json, "targets")) addTargets(*targets);
-    if (const Json* indices = findMember(json, "indices")) {
-      primitive_.indices = numberOf(*indices, "indices");
-    }
-  }
-
- private:
-  void note(std::string where, std::string what) {
-    if (primitive_.fault.ok()) primitive_.fault = error(std::move(where), std::move(what));
-  }
-
-  uint32_t numberOf(const Json& json, const std::string& path) {
-    uint64_t index = 0;
-    if (!asUnsigned(json, index)) {
-      note(path, "must be the number of an accessor");
-    } else if (index >= accessor_count_) {
-      note(path, "there is no accessor " + std::to_string(index));
-    } else {
-      return static_cast<uint32_t>(index);
-    }
-    return kNone;
-  }
-
-  void addMap(const Json& map, const std::string& path, uint32_t target) {
-    if (!map.is_object()) return note(path, "must be an object");
-    for (const auto& [name, value] : map.items()) {
-      primitive_.attributes.push_back({name, target, numberOf(value, at(path, name))});
-    }
-  }
-
-  void addTargets(const Json& targets) {
-    if (!targets.is_array()) return note("targets", "must be an array");
-    primitive_.target_count = static_cast<uint32_t>(targets.size());
-    for (uint32_t i = 0; i < targets.size(); ++i) addMap(targets[i], at("targets", i), i);
-  }
-
-  const size_t accessor_count_;
-  Primitive& primitive_;
-};
-
 /// Finds the primitives, and who uses which view and accessor.
 class UseFinder {
  public:
@@ -474,8 +406,8 @@ class UseFinder {
       primitive.json = &json;
       const Json* const mode = findMember(json, "mode");
       if (mode != nullptr && !asUnsigned(*mode, primitive.mode)) primitive.mode = 0;
-      PrimitiveParser(document_.accessors.size(), primitive).parse();
-      addUses(primitive);
+      addAccessors(json, primitive);
+      addExtensions(json);
       ++ref.primitive;
     }
     visitMeshExtensionAccessors(mesh, [&](const Json& number) {
@@ -483,17 +415,56 @@ class UseFinder {
     });
   }
 
-  void addUses(const Primitive& primitive) {
-    const auto add = [&](uint32_t accessor) {
-      if (accessor != kNone) ++document_.accessors[accessor].primitive_uses;
-    };
-    for (const Primitive::Attribute& attribute : primitive.attributes) add(attribute.accessor);
-    add(primitive.indices);
-    visitExtensionAccessors(*primitive.json, [&](const Json& number, ExtensionAccessor) {
+  /// Collects the accessors that a primitive names.
+  void addAccessors(const Json& json, Primitive& primitive) {
+    if (const Json* attributes = findMember(json, "attributes")) {
+      addMap(*attributes, "attributes", kNone, primitive);
+    } else {
+      note("", "\"attributes\" is missing", primitive);
+    }
+    if (const Json* targets = findMember(json, "targets")) addTargets(*targets, primitive);
+    if (const Json* indices = findMember(json, "indices")) {
+      primitive.indices = numberOf(*indices, "indices", primitive);
+    }
+  }
+
+  void addMap(const Json& map, const std::string& path, uint32_t target, Primitive& primitive) {
+    if (!map.is_object()) return note(path, "must be an object", primitive);
+    for (const auto& [name, value] : map.items()) {
+      primitive.attributes.push_back({name, target, numberOf(value, at(path, name), primitive)});
+    }
+  }
+
+  void addTargets(const Json& targets, Primitive& primitive) {
+    if (!targets.is_array()) return note("targets", "must be an array", primitive);
+    primitive.target_count = static_cast<uint32_t>(targets.size());
+    for (uint32_t i = 0; i < targets.size(); ++i)
+      addMap(targets[i], at("targets", i), i, primitive);
+  }
+
+  uint32_t numberOf(const Json& json, const std::string& path, Primitive& primitive) {
+    uint64_t index = 0;
+    if (!asUnsigned(json, index)) {
+      note(path, "must be the number of an accessor", primitive);
+    } else if (index >= document_.accessors.size()) {
+      note(path, "there is no accessor " + std::to_string(index), primitive);
+    } else {
+      ++document_.accessors[index].primitive_uses;
+      return static_cast<uint32_t>(index);
+    }
+    return kNone;
+  }
+
+  static void note(std::string where, std::string what, Primitive& primitive) {
+    if (primitive.fault.ok()) primitive.fault = error(std::move(where), std::move(what));
+  }
+
+  void addExtensions(const Json& json) {
+    visitExtensionAccessors(json, [&](const Json& number, ExtensionAccessor) {
       if (Accessor* accessor = accessorOf(number)) ++accessor->extension_uses;
     });
-    if (const Json* extension = extensionOf(*primitive.json, kExtensionName)) {
-      visitFilledAccessors(*primitive.json, *extension, [&](uint64_t index) {
+    if (const Json* extension = extensionOf(json, kExtensionName)) {
+      visitFilledAccessors(json, *extension, [&](uint64_t index) {
         if (index < document_.accessors.size()) document_.accessors[index].is_filled = true;
       });
     }
@@ -570,6 +541,58 @@ Result loadTables(Document& document) {
   noteFaults(document);
   UseFinder(document).run();
   return {};
+}
+
+/// Returns the accessors that payloads fill, according to the extension objects of the primitives.
+std::set<uint64_t> compressedAccessors(const Json& root) {
+  std::set<uint64_t> compressed;
+  visitPrimitives(root, [&](const PrimitiveRef&, const Json& primitive) {
+    const Json* extension = extensionOf(primitive, kExtensionName);
+    if (extension == nullptr) return;
+    visitFilledAccessors(primitive, *extension,
+                         [&](uint64_t accessor) { compressed.insert(accessor); });
+  });
+  return compressed;
+}
+
+bool isAt(const Json& object, const char* key, uint64_t number) {
+  uint64_t value = 0;
+  return asUnsigned(findMember(object, key), value) && value == number;
+}
+
+/// Removes a fallback from a document whose buffer `number` does not exist. Returns false, and
+/// changes nothing, when anything but compressed accessors may need that buffer.
+bool removeFallback(size_t number, Json& json) {
+  const Json& buffers = arrayOf(json, "buffers");
+  if (number + 1 != buffers.size()) return false;  // the others would get new numbers
+  const Json& views = arrayOf(json, "bufferViews");
+  size_t view_count = views.size();
+  while (view_count != 0 && isAt(views[view_count - 1], "buffer", number)) --view_count;
+  if (view_count == views.size()) return false;
+  for (size_t i = 0; i < view_count; ++i) {
+    if (isAt(views[i], "buffer", number)) return false;
+  }
+  if (findForeignReferences(json).keep_numbers) return false;
+  const std::set<uint64_t> compressed = compressedAccessors(json);
+  bool is_needed = false;
+  visitViewReferences(json, [&](const Json& reference, uint32_t accessor) {
+    is_needed |= indexOf(&reference, view_count) == kNone && !compressed.contains(accessor);
+  });
+  if (is_needed) return false;
+  if (!compressed.empty() && *compressed.rbegin() >= arrayOf(json, "accessors").size()) {
+    return false;
+  }
+  Json* const accessors = compressed.empty() ? nullptr : &json["accessors"];
+  for (const uint64_t index : compressed) {
+    Json& accessor = (*accessors)[index];
+    uint64_t view = 0;
+    if (!asUnsigned(findMember(accessor, "bufferView"), view) || view < view_count) continue;
+    for (const char* key : {"bufferView", "byteOffset", "sparse"}) accessor.erase(key);
+  }
+  json["bufferViews"].erase(json["bufferViews"].begin() + static_cast<ptrdiff_t>(view_count),
+                            json["bufferViews"].end());
+  json["buffers"].erase(&json["buffers"][number]);
+  return true;
 }
 
 /// A file that images name.
@@ -698,60 +721,6 @@ Result embedImages(const FileReader& read_file, Document& document) {
     }
   }
   return {};
-}
-
-namespace {
-
-/// Returns the accessors that payloads fill, according to the extension objects of the primitives.
-std::set<uint64_t> compressedAccessors(const Json& root) {
-  std::set<uint64_t> compressed;
-  visitPrimitives(root, [&](const PrimitiveRef&, const Json& primitive) {
-    const Json* extension = extensionOf(primitive, kExtensionName);
-    if (extension == nullptr) return;
-    visitFilledAccessors(primitive, *extension,
-                         [&](uint64_t accessor) { compressed.insert(accessor); });
-  });
-  return compressed;
-}
-
-bool isAt(const Json& object, const char* key, uint64_t number) {
-  uint64_t value = 0;
-  return asUnsigned(findMember(object, key), value) && value == number;
-}
-
-}  // namespace
-
-bool removeFallback(size_t number, Json& json) {
-  const Json& buffers = arrayOf(json, "buffers");
-  if (number + 1 != buffers.size()) return false;  // the others would get new numbers
-  const Json& views = arrayOf(json, "bufferViews");
-  size_t view_count = views.size();
-  while (view_count != 0 && isAt(views[view_count - 1], "buffer", number)) --view_count;
-  if (view_count == views.size()) return false;
-  for (size_t i = 0; i < view_count; ++i) {
-    if (isAt(views[i], "buffer", number)) return false;
-  }
-  if (findForeignReferences(json).keep_numbers) return false;
-  const std::set<uint64_t> compressed = compressedAccessors(json);
-  bool is_needed = false;
-  visitViewReferences(json, [&](const Json& reference, uint32_t accessor) {
-    is_needed |= indexOf(&reference, view_count) == kNone && !compressed.contains(accessor);
-  });
-  if (is_needed) return false;
-  if (!compressed.empty() && *compressed.rbegin() >= arrayOf(json, "accessors").size()) {
-    return false;
-  }
-  Json* const accessors = compressed.empty() ? nullptr : &json["accessors"];
-  for (const uint64_t index : compressed) {
-    Json& accessor = (*accessors)[index];
-    uint64_t view = 0;
-    if (!asUnsigned(findMember(accessor, "bufferView"), view) || view < view_count) continue;
-    for (const char* key : {"bufferView", "byteOffset", "sparse"}) accessor.erase(key);
-  }
-  json["bufferViews"].erase(json["bufferViews"].begin() + static_cast<ptrdiff_t>(view_count),
-                            json["bufferViews"].end());
-  json["buffers"].erase(&json["buffers"][number]);
-  return true;
 }
 
 }  // namespace mcc::gltf

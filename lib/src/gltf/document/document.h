@@ -62,6 +62,9 @@ struct BufferView {
   uint64_t elementsLength() const { return isCoded() ? coding.length : length; }
 };
 
+/// The numbers that glTF gives the component types, in the order of ComponentType.
+inline constexpr uint32_t kGlTypes[] = {5120, 5121, 5122, 5123, 5125, 5126, 5124};
+
 /// Values that replace some elements of an accessor.
 struct Sparse {
   uint64_t count = 0;  ///< 0: the accessor is not sparse
@@ -208,10 +211,6 @@ Result loadDocument(std::span<const uint8_t> file, const FileReader& read_file, 
 /// Moves the image files of a .gltf into buffer views, so that a GLB in another folder still has
 /// them. Images in data URIs stay as they are. Does nothing to a GLB.
 Result embedImages(const FileReader& read_file, Document& document);
-
-/// Removes a fallback from a document whose buffer `number` does not exist. Returns false, and
-/// changes nothing, when anything but compressed accessors may need that buffer.
-bool removeFallback(size_t number, Json& json);
 
 }  // namespace mcc::gltf
 

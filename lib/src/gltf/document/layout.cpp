@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "gltf/document/package.h"
 
@@ -349,13 +350,7 @@ class LayoutBuilder {
   /// those that are no longer used.
   void nameCodings() {
     for (const char* name : kViewExtensions) {
-      for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-        if (coded_extensions_.count(name) != 0) {
-          addExtensionName(json_, list, name);
-        } else {
-          removeExtensionName(json_, list, name);
-        }
-      }
+      listExtension(json_, name, coded_extensions_.contains(name));
     }
   }
 
@@ -426,29 +421,28 @@ Layout layOut(const Document& document, std::span<const NewView> new_views, Json
   return LayoutBuilder(document, new_views, json).run();
 }
 
-namespace {
+void OwnedRanges::add(const ByteRange& range, size_t owner) {
+  edges_.push_back({range.buffer, range.begin, true, owner});
+  edges_.push_back({range.buffer, range.end, false, owner});
+}
 
-/// Sorts ranges and joins those that touch.
-void join(std::vector<ByteRange>& ranges) {
-  std::sort(ranges.begin(), ranges.end());
-  size_t count = 0;
-  for (const ByteRange& range : ranges) {
-    const bool touches = count != 0 && ranges[count - 1].buffer == range.buffer &&
-                         range.begin <= ranges[count - 1].end;
-    if (touches) {
-      ranges[count - 1].end = std::max(ranges[count - 1].end, range.end);
-    } else {
-      ranges[count++] = range;
-    }
+void OwnedRanges::visit(const std::function<void(uint64_t, const Owners&)>& visit) {
+  std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
+    return std::tie(a.buffer, a.offset, b.is_begin) < std::tie(b.buffer, b.offset, a.is_begin);
+  });
+  Owners open;
+  for (size_t i = 0; i < edges_.size(); ++i) {
+    const Edge& edge = edges_[i];
+    uint32_t& count = open[edge.owner];
+    count += edge.is_begin ? 1 : ~0u;
+    if (count == 0) open.erase(edge.owner);
+    if (open.empty()) continue;  // else there is another edge
+    const uint64_t bytes = edges_[i + 1].offset - edge.offset;
+    if (bytes != 0) visit(bytes, open);
   }
-  ranges.resize(count);
 }
 
-uint64_t bytesOf(const std::vector<ByteRange>& ranges) {
-  uint64_t sum = 0;
-  for (const ByteRange& range : ranges) sum += range.end - range.begin;
-  return sum;
-}
+namespace {
 
 class ContentsWalk {
  public:
@@ -456,32 +450,40 @@ class ContentsWalk {
 
   Contents run() {
     addGeometry();
-    const uint64_t in_geometry = take(result_.geometry_bytes, 0);
+    owner_ = kImages;
     addImages();
-    const uint64_t in_images = take(result_.image_bytes, in_geometry);
+    owner_ = kAnimations;
     addAnimations();
-    const uint64_t in_buffers = take(result_.animation_bytes, in_images);
-    result_.image_bytes += data_uri_bytes_;
+    uint64_t bytes[kOwnerCount] = {};
+    ranges_.visit([&](uint64_t count, const OwnedRanges::Owners& owners) {
+      bytes[owners.begin()->first] += count;
+    });
+    result_.geometry_bytes = bytes[kGeometry];
+    result_.image_bytes = bytes[kImages] + data_uri_bytes_;
+    result_.animation_bytes = bytes[kAnimations];
     // Buffers in data URIs take a third more than their bytes, which counts as JSON.
-    const uint64_t used = std::min(in_buffers + data_uri_bytes_, document_.source_bytes);
-    result_.other_bytes = document_.source_bytes - used;
+    const uint64_t used = result_.geometry_bytes + result_.image_bytes + result_.animation_bytes;
+    result_.other_bytes = document_.source_bytes - std::min(used, document_.source_bytes);
     return result_;
   }
 
  private:
+  /// Bytes that several of them use belong to the first.
+  enum Owner : size_t { kGeometry, kImages, kAnimations, kOwnerCount };
+
   void addView(uint32_t index) {
-    if (index >= document_.views.size()) return;
-    ranges_.push_back(viewRange(document_, index));
+    if (index < document_.views.size()) ranges_.add(viewRange(document_, index), owner_);
   }
 
   /// Adds the bytes that an accessor uses; of a coded view they are not known one by one.
   void addAccessor(uint32_t index) {
-    if (index >= document_.accessors.size() || !known_.insert(index).second) return;
+    if (index >= document_.accessors.size()) return;
     const Accessor& accessor = document_.accessors[index];
     // Its range is not known, or was not checked.
     if (!accessor.is_known_type || !accessor.fault.ok()) return addView(accessor.view);
-    const auto ranges = accessorRanges(document_, index, false);
-    ranges_.insert(ranges_.end(), ranges.begin(), ranges.end());
+    for (const ByteRange& range : accessorRanges(document_, index, false)) {
+      ranges_.add(range, owner_);
+    }
   }
 
   void addViewOf(const Json* object) {
@@ -524,18 +526,10 @@ class ContentsWalk {
     }
   }
 
-  /// Sets `bytes` to what the ranges have grown by since they covered `before` bytes.
-  uint64_t take(uint64_t& bytes, uint64_t before) {
-    join(ranges_);
-    const uint64_t now = bytesOf(ranges_);
-    bytes = now - before;
-    return now;
-  }
-
   const Document& document_;
   Contents result_;
-  std::vector<ByteRange> ranges_;  ///< of everything that was added
-  std::set<uint32_t> known_;       ///< accessors that were added
+  OwnedRanges ranges_;
+  Owner owner_ = kGeometry;  ///< of what is being added
   uint64_t data_uri_bytes_ = 0;
 };
 

@@ -9,6 +9,8 @@
 #define MCC_GLTF_DOCUMENT_LAYOUT_H_
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,6 +36,26 @@ ByteRange viewRange(const Document& document, uint64_t view);
 /// `whole_views`.
 std::vector<ByteRange> accessorRanges(const Document& document, uint32_t accessor,
                                       bool whole_views);
+
+/// Ranges of source bytes with their owners, and who owns which bytes.
+class OwnedRanges {
+ public:
+  /// The owners of a byte, each with the number of its ranges there.
+  using Owners = std::map<size_t, uint32_t>;
+
+  void add(const ByteRange& range, size_t owner);
+  /// Calls visit(bytes, owners) for the runs of bytes that have the same owners, at least one.
+  void visit(const std::function<void(uint64_t bytes, const Owners& owners)>& visit);
+
+ private:
+  struct Edge {
+    uint32_t buffer;
+    uint64_t offset;
+    bool is_begin;
+    size_t owner;
+  };
+  std::vector<Edge> edges_;
+};
 
 /// Returns what the bytes of a loaded document are for. Bytes that several things use count once,
 /// for the first of geometry, images and animations. Takes time proportional to the JSON, up to a

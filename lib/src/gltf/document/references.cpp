@@ -373,10 +373,8 @@ ForeignReferences findForeignReferences(const Json& root) {
   walkKnown(root, foreign);
   foreign.has_tables = extensionOf(root, kMetadataExtension) != nullptr;
   foreign.has_wide_accessors = hasWideAccessors(root);
-  for (const Json& name : arrayOf(root, "extensionsUsed")) {
-    if (name.is_string() && !isKnownExtension(name.get<std::string>())) {
-      keepNumbersFor(foreign, name.get<std::string>());
-    }
+  for (const std::string& name : extensionNames(root, "extensionsUsed")) {
+    if (!isKnownExtension(name)) keepNumbersFor(foreign, name);
   }
   return foreign;
 }
@@ -403,10 +401,12 @@ std::string unknownExtension(const Json& object) {
   return "";
 }
 
-void addExtensionName(Json& root, const char* list, const char* name) {
-  Json& names = root[list];
-  if (!names.is_array()) names = Json::array();
-  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+std::vector<std::string> extensionNames(const Json& root, const char* list) {
+  std::vector<std::string> names;
+  for (const Json& name : arrayOf(root, list)) {
+    if (name.is_string()) names.push_back(name.text());
+  }
+  return names;
 }
 
 void removeExtensionName(Json& root, const char* list, const char* name) {
@@ -423,11 +423,23 @@ void removeExtensionName(Json& root, const char* list, const char* name) {
   }
 }
 
+void listExtension(Json& root, const char* name, bool is_used_and_required) {
+  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+    if (!is_used_and_required) {
+      removeExtensionName(root, list, name);
+      continue;
+    }
+    Json& names = root[list];
+    if (!names.is_array()) names = Json::array();
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+}
+
 std::string nodeDependentExtension(const Json& root, const ForeignReferences& foreign) {
   if (!foreign.extension.empty()) return foreign.extension;
-  for (const Json& name : arrayOf(root, "extensionsUsed")) {
-    const KnownExtension* known = name.is_string() ? findKnown(name.text()) : nullptr;
-    if (known != nullptr && known->names_nodes) return name.text();
+  for (const std::string& name : extensionNames(root, "extensionsUsed")) {
+    const KnownExtension* known = findKnown(name);
+    if (known != nullptr && known->names_nodes) return name;
   }
   return "";
 }

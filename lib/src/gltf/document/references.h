@@ -226,9 +226,12 @@ std::string unknownExtension(const Json& object);
 /// there, or an empty string.
 std::string nodeDependentExtension(const Json& root, const ForeignReferences& foreign);
 
-/// Adds a name to a list of extensions, or removes it. A list that becomes empty is removed.
-void addExtensionName(Json& root, const char* list, const char* name);
+/// Returns the names in a list of extensions.
+std::vector<std::string> extensionNames(const Json& root, const char* list);
+/// Removes a name from a list of extensions. A list that becomes empty is removed.
 void removeExtensionName(Json& root, const char* list, const char* name);
+/// Makes both lists of extensions name one, or not. Lists that become empty are removed.
+void listExtension(Json& root, const char* name, bool is_used_and_required);
 
 }  // namespace mcc::gltf
 

@@ -547,9 +547,7 @@ Result inspectBytes(std::span<const uint8_t> source, const FileReader& read_file
   Document document;
   MCC_GLTF_TRY(loadDocument(source, read_file, document));
   report.input_bytes = document.source_bytes;
-  for (const Json& name : arrayOf(document.json, "extensionsUsed")) {
-    if (name.is_string()) report.extensions_used.push_back(name.get<std::string>());
-  }
+  report.extensions_used = extensionNames(document.json, "extensionsUsed");
   report.mesh_count = static_cast<uint32_t>(document.first_primitive_of.size());
   report.primitive_count = static_cast<uint32_t>(document.primitives.size());
   std::vector<ExtensionUse> uses;
