@@ -10,8 +10,23 @@
 
 namespace mcc::gltf {
 
-inline Result error(std::string where, std::string what) {
-  return Result{std::move(where), std::move(what)};
+/// Returns texts and numbers one after another.
+template <typename... Parts>
+std::string sentence(const Parts&... parts) {
+  const auto textOf = [](const auto& part) {
+    if constexpr (requires { std::to_string(part); }) {
+      return std::to_string(part);
+    } else {
+      return std::string(part);
+    }
+  };
+  return (std::string() + ... + textOf(parts));
+}
+
+/// Returns an error at a place. What is wrong may be given in parts, see sentence().
+template <typename... Parts>
+Result error(std::string where, const Parts&... what) {
+  return Result{std::move(where), sentence(what...)};
 }
 
 /// Returns the JSON path of a primitive.

@@ -335,10 +335,10 @@ Result checkOutput(Conversion& conversion, const ConvertOptions& options,
     MCC_GLTF_TRY(checkConversion(conversion.document, conversion.compressed, options.decoders,
                                  stored, read_file, options.thread_count, checked));
     if (checked.decoded_bytes > decodedLimit(0, report.output_bytes)) {
-      report.notes.push_back(
-          "its geometry decodes to " + std::to_string(checked.decoded_bytes) +
+      report.notes.push_back(sentence(
+          "its geometry decodes to ", checked.decoded_bytes,
           " bytes, more than decoders accept by default for a file this small; they need a larger "
-          "max_decoded_bytes (--max-decoded-bytes)");
+          "max_decoded_bytes (--max-decoded-bytes)"));
     }
     report.check_seconds += watch.seconds();
     report.output_contents = withoutFallback(checked.contents, report);

@@ -156,8 +156,8 @@ class Checker {
     }
     const auto missing = std::find(is_read.begin(), is_read.end(), false);
     if (missing == is_read.end()) return {};
-    return error("", piece.attributes[static_cast<size_t>(missing - is_read.begin())].label() +
-                         " is not in the payload");
+    return error("", piece.attributes[static_cast<size_t>(missing - is_read.begin())].label(),
+                 " is not in the payload");
   }
 
   /// Checks the accessors next to the payload that belong to the vertices of a piece.
@@ -170,7 +170,7 @@ class Checker {
     for (const AttributePlan& attribute : piece.ordinary) {
       const auto found = accessors.find({attribute.target, attribute.name});
       if (found == accessors.end() || found->second == kNone) {
-        return error("", attribute.label() + " is missing");
+        return error("", attribute.label(), " is missing");
       }
       MCC_GLTF_TRY(checkOrdinary(found->second, attribute, source_of));
       if (payload.plan.reorders()) reordered_.insert(attribute.accessor);
@@ -200,7 +200,7 @@ class Checker {
     const Accessor& accessor = written_.accessors[index];
     if (accessor.count != source_.accessors[attribute.accessor].count ||
         formatOf(attribute.name, attribute.target, accessor) != attribute.format) {
-      return error("", attribute.label() + " has another count or type");
+      return error("", attribute.label(), " has another count or type");
     }
     AccessorData source_values;
     AccessorData written_values;
@@ -226,7 +226,7 @@ class Checker {
     }
     for (size_t i = 0; i < numbers.size(); ++i) {
       if (numbers[i] >= source_of.size() || source_of[numbers[i]] != expected[i]) {
-        return error("", "element " + std::to_string(i) + " names another vertex");
+        return error("", "element ", i, " names another vertex");
       }
     }
     return numbers.empty() ? Result() : checkBounds(accessor, boundsOf(numbers));

@@ -27,7 +27,7 @@ Result promiseAngle(const AttributePlan& plan, double radians, Promise& promise)
   promise.radians = radians;
   const bool is_unit =
       isBase(plan.format, Semantic::kNormal) || isBase(plan.format, Semantic::kTangent);
-  return is_unit ? Result{} : error("", plan.label() + " is coded as a unit vector");
+  return is_unit ? Result{} : error("", plan.label(), " is coded as a unit vector");
 }
 
 Result promiseLattice(const AttributePlan& plan, const Lattice& lattice, Promise& promise) {
@@ -37,7 +37,7 @@ Result promiseLattice(const AttributePlan& plan, const Lattice& lattice, Promise
   promise.half_steps = plan.is_rounded_with_others ? 2 : 1;
   promise.distance = plan.max_distance;
   if (plan.has_lattice && promise.step > 0 && promise.step <= double{plan.lattice.step}) return {};
-  return error("", "the lattice step of " + plan.label() + " is coarser than asked for");
+  return error("", "the lattice step of ", plan.label(), " is coarser than asked for");
 }
 
 double angleBetween(const double* a, const double* b) {
@@ -85,8 +85,8 @@ Deviation latticeDeviation(const double* source, const double* decoded, uint32_t
 }
 
 Result tooFar(const AttributeReport& report, uint64_t index, double off, bool is_angle) {
-  return error("", report.name + " of decoded vertex " + std::to_string(index) + " is off by " +
-                       numberText(off) + (is_angle ? " degrees" : "") + ", more than promised");
+  return error("", report.name, " of decoded vertex ", index, " is off by ", numberText(off),
+               (is_angle ? " degrees" : ""), ", more than promised");
 }
 
 Result compareExact(const AccessorData& source, const AccessorData& decoded,
@@ -95,8 +95,7 @@ Result compareExact(const AccessorData& source, const AccessorData& decoded,
     const auto a = source.element(source_of[i]);
     const auto b = decoded.element(i);
     if (!std::equal(a.begin(), a.end(), b.begin(), b.end())) {
-      return error("", report.name + " of decoded vertex " + std::to_string(i) +
-                           " differs but should be exact");
+      return error("", report.name, " of decoded vertex ", i, " differs but should be exact");
     }
   }
   return {};
@@ -138,7 +137,7 @@ Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, uint8_t 
       if (coded.bits < plan.bits || normal_bits < 2) break;
       return promiseAngle(plan, tangentBound(plan.bits, normal_bits), promise);
   }
-  return error("", plan.label() + " is coded with fewer bits than asked for");
+  return error("", plan.label(), " is coded with fewer bits than asked for");
 }
 
 Result compareValues(const AccessorData& source, const AccessorData& decoded,
@@ -329,7 +328,7 @@ class Prover {
     const AttributePlan& attribute = piece.attributes[number];
     const auto& infos = decoded_.payload.info().pieces[piece_number].attributes;
     if (infos[number].format != attribute.format) {
-      return error("", attribute.label() + " has another count or type");
+      return error("", attribute.label(), " has another count or type");
     }
     const bool is_alias = infos[number].coding == AttributeCoding::kAlias;
     const AttributeInfo& coded = infos[is_alias ? infos[number].alias_of : number];
@@ -389,8 +388,8 @@ class Prover {
     std::vector<uint32_t> expected;
     MCC_GLTF_TRY(expectedTriangles(piece, part, expected));
     if (indices.size() != expected.size()) {
-      return error("", "there are " + std::to_string(indices.size() / 3) +
-                           " triangles, the source has " + std::to_string(expected.size() / 3));
+      return error("", "there are ", indices.size() / 3, " triangles, the source has ",
+                   expected.size() / 3);
     }
     if (payload_.plan.keep_triangle_order) {
       for (size_t i = 0; i < indices.size(); ++i) {

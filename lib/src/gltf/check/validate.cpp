@@ -118,13 +118,12 @@ class Validator {
     if (uses_.empty()) {
       if (is_used || is_required) {
         issues_.add(rule::kUnusedExtension, is_used ? "/extensionsUsed" : "/extensionsRequired",
-                    std::string(kExtensionName) + " is listed, but no primitive has it");
+                    kExtensionName, " is listed, but no primitive has it");
       }
       return;
     }
     if (!is_used) {
-      issues_.add(rule::kListedAsUsed, "/extensionsUsed",
-                  std::string(kExtensionName) + " is not listed");
+      issues_.add(rule::kListedAsUsed, "/extensionsUsed", kExtensionName, " is not listed");
     }
     const std::set<uint32_t> filled = filledAccessors();
     std::vector<uint32_t> bare;
@@ -133,9 +132,8 @@ class Validator {
     }
     if (bare.size() == filled.size()) {
       if (!is_required) {
-        issues_.add(rule::kListedAsRequired, "/extensionsRequired",
-                    std::string(kExtensionName) +
-                        " is not listed, though there is no fallback for loaders without it");
+        issues_.add(rule::kListedAsRequired, "/extensionsRequired", kExtensionName,
+                    " is not listed, though there is no fallback for loaders without it");
       }
       return;
     }
@@ -144,8 +142,8 @@ class Validator {
                   "is filled from a payload and has no fallback, as others of the file do");
     }
     if (is_required && bare.empty()) {
-      issues_.add(rule::kListedAsRequired, "/extensionsRequired",
-                  std::string(kExtensionName) + " is listed, though everything has a fallback");
+      issues_.add(rule::kListedAsRequired, "/extensionsRequired", kExtensionName,
+                  " is listed, though everything has a fallback");
     }
   }
 
@@ -180,9 +178,8 @@ class Validator {
     if (!opened.ok()) return issues_.addPayloadError(opened, where);
     const PayloadInfo& info = decoded.payload.info();
     if (info.version_minor > kVersionMinor) {
-      issues_.add(rule::kMinorVersion, where,
-                  "the payload has version " + std::to_string(info.version_major) + "." +
-                      std::to_string(info.version_minor) + "; what is new in it is not checked");
+      issues_.add(rule::kMinorVersion, where, "the payload has version ", info.version_major, ".",
+                  info.version_minor, "; what is new in it is not checked");
     }
     const std::vector<const ExtensionUse*> sound = checkUsers(payload, info);
     if (!issues_.hasErrors()) checkUse(payload, info, where);
@@ -222,8 +219,8 @@ class Validator {
     const PieceInfo& piece = info.pieces[use.piece];
     if (piece.keeps_vertex_order && piece.keeps_triangle_order) return;
     issues_.add(rule::kManifold, at("/meshes", use.mesh) + "/extensions/EXT_mesh_manifold",
-                "refers to vertices and triangles by number, whose order piece " +
-                    std::to_string(use.piece) + " of the payload does not keep");
+                "refers to vertices and triangles by number, whose order piece ", use.piece,
+                " of the payload does not keep");
   }
 
   /// Reports parts and attributes that no primitive names.
@@ -246,13 +243,12 @@ class Validator {
       const auto& [parts, attributes] = used[p];
       for (uint32_t k = 0; k < info.pieces[p].parts.size(); ++k) {
         if (parts.contains(k) || info.pieces[p].parts[k].triangle_count == 0) continue;
-        issues_.add(rule::kUnusedPart, where,
-                    "no primitive draws part " + std::to_string(k) + " of " + piece);
+        issues_.add(rule::kUnusedPart, where, "no primitive draws part ", k, " of ", piece);
       }
       for (uint32_t k = 0; k < info.pieces[p].attributes.size() && !parts.empty(); ++k) {
         if (attributes.contains(k)) continue;
-        issues_.add(rule::kUnusedAttribute, where,
-                    "no primitive names attribute " + std::to_string(k) + " of " + piece);
+        issues_.add(rule::kUnusedAttribute, where, "no primitive names attribute ", k, " of ",
+                    piece);
       }
     }
   }
@@ -300,8 +296,8 @@ class Validator {
     const uint64_t i =
         elements.firstDifference(AccessorData::packed(tight, elements.element_bytes));
     if (i != elements.count) {
-      issues_.add(rule::kFallbackElements, path,
-                  "element " + std::to_string(i) + " of the fallback differs from the decoded one");
+      issues_.add(rule::kFallbackElements, path, "element ", i,
+                  " of the fallback differs from the decoded one");
     }
     if (accessor.view == kNone) return;
     if (!payload_buffers_.contains(document_.views[accessor.view].buffer)) return;

@@ -289,8 +289,8 @@ class Applier {
     if (is_taken_[source]) {
       index = static_cast<uint32_t>(accessors.size());
       accessors.push_back(cloneOf(source));
-      compressed_.remarks.push_back(where + " shares accessor " + std::to_string(source) +
-                                    " with others and gets its own");
+      compressed_.remarks.push_back(
+          sentence(where, " shares accessor ", source, " with others and gets its own"));
     }
     is_taken_[source] = true;
     removeBytes(accessors[index]);

@@ -100,7 +100,7 @@ class Planner {
     const Result has_mode = readOptionalUnsigned(json, "mode", "", kNone, mode);
     if (!has_mode.ok()) return noteOf(has_mode);
     if (mode < 4) return "";
-    if (mode > 6) return "has the mode " + std::to_string(mode) + ", which is unknown";
+    if (mode > 6) return sentence("has the mode ", mode, ", which is unknown");
     const Json* extensions = findMember(json, "extensions");
     if (extensions != nullptr && !extensions->is_object()) return "extensions: must be an object";
     std::string note = extensionNote(primitive, mesh);
@@ -201,8 +201,8 @@ class Planner {
   /// Returns why the attributes cannot be coded; empty when they can.
   std::string attributeNote(const PiecePlan& piece) const {
     if (piece.target_count > kMaxTargets) {
-      return "has " + std::to_string(piece.target_count) + " morph targets, more than the " +
-             std::to_string(kMaxTargets) + " of a payload";
+      return sentence("has ", piece.target_count, " morph targets, more than the ", kMaxTargets,
+                      " of a payload");
     }
     if (piece.attributes.empty() || piece.attributes[0].format.semantic != Semantic::kPosition ||
         piece.attributes[0].target != kNone) {
@@ -224,8 +224,8 @@ class Planner {
         return attribute.label() + " has signed integers of 32 bits";
       }
       if (accessor.count != count) {
-        return "has " + std::to_string(count) + " positions but " + std::to_string(accessor.count) +
-               " elements of " + attribute.label();
+        return sentence("has ", count, " positions but ", accessor.count, " elements of ",
+                        attribute.label());
       }
     }
     return "";
@@ -245,8 +245,8 @@ class Planner {
       if (is_zero && !zeros_.contains(index)) bytes += accessor.count * accessor.tightBytes();
     }
     if (bytes > document_.decoded.zeroLimit() - zero_bytes_) {
-      return "has accessors that have no bytes in the file and claim " + std::to_string(bytes) +
-             " (max_decoded_bytes, --max-decoded-bytes allow more)";
+      return sentence("has accessors that have no bytes in the file and claim ", bytes,
+                      " (max_decoded_bytes, --max-decoded-bytes allow more)");
     }
     zero_bytes_ += bytes;
     zeros_.insert(accessors.begin(), accessors.end());
@@ -262,8 +262,8 @@ class Planner {
   }
 
   static std::string roomNote() {
-    return "shares its bytes with so many others that together they hold more than " +
-           std::to_string(kMaxSharing) + " times those of the file";
+    return sentence("shares its bytes with so many others that together they hold more than ",
+                    kMaxSharing, " times those of the file");
   }
 
   /// Reads the elements of a piece when it is met for the first time. Returns why they cannot be
@@ -299,11 +299,11 @@ class Planner {
     }
     for (size_t i = 0; i < part.triangles.size(); ++i) {
       if (part.triangles[i] < wedge_count) continue;
-      return "index number " + std::to_string(i) + " is " + std::to_string(part.triangles[i]) +
-             " but there are only " + std::to_string(wedge_count) + " vertices";
+      return sentence("index number ", i, " is ", part.triangles[i], " but there are only ",
+                      wedge_count, " vertices");
     }
     if (!expandTriangles(part.mode, part.triangles)) {
-      return "has " + std::to_string(index_count) + " indices, which make no triangles";
+      return sentence("has ", index_count, " indices, which make no triangles");
     }
     if (part.triangles.size() / 3 >= kMaxVertices) return "has 2^28 or more triangles";
     return "";

@@ -348,6 +348,8 @@ class QualityPlanner {
   }
 
  private:
+  static constexpr double kMargin = 1 - 0x1p-20;  ///< for the roundings of decoding
+
   /// Positions that are few and far away cost bits, but do not make the others less accurate: the
   /// model is as large as its box, but at most four times as large as the box without the outer
   /// hundredth of the positions at each end.
@@ -376,17 +378,21 @@ class QualityPlanner {
     Tally& tally = tallies_[{semantic, is_target, attribute.name}];
     tally.choice.name = (is_target ? "target " : "") + attribute.name;
     Extent extent(attribute.format.component_count);
-    if (isBasePosition(attribute)) {
-      // It is planned already.
-    } else if (!addTo(extent, attribute)) {
-      notes_.push_back(whereIs(piece, attribute) + kNotFinite);
+    Lattice lattice;
+    uint8_t bits = 0;
+    const char* why = "";  // it stays exact
+    const bool is_vector = semantic == Semantic::kNormal || semantic == Semantic::kTangent;
+    if (isBasePosition(attribute)) return tally.add(attribute);  // it is planned already
+    if (!addTo(extent, attribute)) {
+      why = kNotFinite;
     } else if (is_target) {
-      planDelta(piece, attribute, extent, tally);
-    } else if (semantic == Semantic::kNormal || semantic == Semantic::kTangent) {
-      planVectors(piece, attribute, extent);
-    } else {
-      planValues(piece, attribute, extent, tally);
+      if (!fitDelta(piece, attribute, extent, tally, lattice, bits)) why = kTooManySteps;
+    } else if (is_vector) {
+      if (!fitVectors(attribute, extent, lattice, bits)) why = kNotUnit;
+    } else if (!fitValues(piece, attribute, extent, tally, lattice, bits)) {
+      why = kTooFine;
     }
+    useLattice(piece, attribute, lattice, bits, why, notes_);
     tally.add(attribute);
   }
 
@@ -414,73 +420,54 @@ class QualityPlanner {
     return fitAroundZero(extent, static_cast<float>(2 * error * (1 - kRounding)), lattice, bits);
   }
 
-  void planValues(const PiecePlan& piece, AttributePlan& attribute, Extent& extent, Tally& tally) {
+  bool fitValues(const PiecePlan& piece, const AttributePlan& attribute, Extent& extent,
+                 Tally& tally, Lattice& lattice, uint8_t& bits) {
     const double error = errorOf(piece, attribute, extent, tally);
     const Semantic semantic = attribute.format.semantic;
-    Lattice lattice;
-    uint8_t bits = 0;
-    if (semantic != Semantic::kTexcoord && extent.isInside(0, 1)) {
-      bits = unitBitsFor(semantic == Semantic::kColor ? 2 * error : error);
-      useLattice(attribute, unitLattice(bits), bits);
-    } else if (fitWholeSide(extent, error, lattice, bits) ||
-               fitAmongOutliers(extent, error, lattice, bits)) {
-      useLattice(attribute, lattice, bits);
-    } else {
-      notes_.push_back(whereIs(piece, attribute) + kTooFine);
+    if (semantic == Semantic::kTexcoord || !extent.isInside(0, 1)) {
+      return fitWholeSide(extent, error, lattice, bits) ||
+             fitAmongOutliers(extent, error, lattice, bits);
     }
+    bits = unitBitsFor(semantic == Semantic::kColor ? 2 * error : error);
+    lattice = unitLattice(bits);
+    return true;
   }
 
   /// Unit vectors get the bits of the writer's own grids. Others get a lattice that keeps within
   /// the angle for the shortest of them, unless that needs more bits than vectors can have.
-  void planVectors(const PiecePlan& piece, AttributePlan& attribute, const Extent& extent) {
+  bool fitVectors(const AttributePlan& attribute, const Extent& extent, Lattice& lattice,
+                  uint8_t& bits) const {
     constexpr double kShortestTangent = 0.56;  // see octahedralBitsFor()
     const Lengths lengths = lengthsOf(attribute);
-    const bool is_normal = attribute.format.semantic == Semantic::kNormal;
-    uint8_t bits = octahedralBitsFor(errors_.radians);
-    Lattice lattice;
-    bool fits = false;
-    if (!is_normal) {
-      fits = fitTangents(extent, bits, lattice) && lengths.shortest >= kShortestTangent;
-    } else if (lengths.are_unit) {
-      fits = fitLattice(extent, bits, lattice);
-    } else {
-      const double error = errors_.radians * lengths.shortest / std::sqrt(3.0);
-      fits = fitError(extent, error, lattice, bits) && bits <= kMaxUnitBits;
-      bits = std::max<uint8_t>(bits, kMinUnitBits);
+    bits = octahedralBitsFor(errors_.radians);
+    if (attribute.format.semantic == Semantic::kTangent) {
+      return fitTangents(extent, bits, lattice) && lengths.shortest >= kShortestTangent;
     }
-    if (fits) {
-      useLattice(attribute, lattice, bits);
-    } else {
-      notes_.push_back(whereIs(piece, attribute) + kNotUnit);
-    }
+    if (lengths.are_unit) return fitLattice(extent, bits, lattice);
+    const double error = errors_.radians * lengths.shortest / std::sqrt(3.0);
+    const bool fits = fitError(extent, error, lattice, bits) && bits <= kMaxUnitBits;
+    bits = std::max<uint8_t>(bits, kMinUnitBits);
+    return fits;
   }
 
   /// Deltas are on lattices through 0, so that what does not move stays where it is. Those of
   /// positions use the step of the positions.
-  void planDelta(const PiecePlan& piece, AttributePlan& attribute, const Extent& extent,
-                 Tally& tally) {
+  bool fitDelta(const PiecePlan& piece, const AttributePlan& attribute, const Extent& extent,
+                Tally& tally, Lattice& lattice, uint8_t& bits) {
+    const AttributePlan& base = piece.attributes[0];
     double step = 0;
     switch (attribute.format.semantic) {
       case Semantic::kPosition:
-        step = piece.attributes[0].has_lattice
-                   ? double{piece.attributes[0].lattice.step}
-                   : 2 * errors_.share * extent.farthest() / std::sqrt(3.0);
+        step = base.has_lattice
+                   ? double{base.lattice.step}
+                   : kMargin * (2 * errors_.share * extent.farthest() / std::sqrt(3.0));
         break;
       case Semantic::kNormal:
-      case Semantic::kTangent: step = 2 * errors_.radians / std::sqrt(3.0); break;
-      default: step = 2 * errorOf(piece, attribute, extent, tally);
+      case Semantic::kTangent: step = kMargin * (2 * errors_.radians / std::sqrt(3.0)); break;
+      default: step = kMargin * (2 * errorOf(piece, attribute, extent, tally));
     }
-    Lattice lattice;
-    uint8_t bits = 0;
-    constexpr double kMargin = 1 - 0x1p-20;  // for the roundings of decoding
-    const bool is_of_base =
-        attribute.format.semantic == Semantic::kPosition && piece.attributes[0].has_lattice;
-    const auto rounded = static_cast<float>(is_of_base ? step : step * kMargin);
-    if (fitAroundZero(extent, extent.farthest() == 0 ? 1 : rounded, lattice, bits)) {
-      useLattice(attribute, lattice, bits);
-    } else {
-      notes_.push_back(whereIs(piece, attribute) + kTooManySteps);
-    }
+    if (extent.farthest() == 0) step = 1;
+    return fitAroundZero(extent, static_cast<float>(step), lattice, bits);
   }
 
   /// Adds a note when triangles that have an area have none on the lattice.
@@ -496,10 +483,10 @@ class QualityPlanner {
       }
     }
     if (lost == 0) return;
-    notes_.push_back(piece.parts[0].users[0].path() + ": " + std::to_string(lost) + " of " +
-                     std::to_string(all) +
-                     " triangles are so small that no area is left of them; a larger quality keeps "
-                     "more of them");
+    notes_.push_back(
+        sentence(piece.parts[0].users[0].path(), ": ", lost, " of ", all,
+                 " triangles are so small that no area is left of them; a larger quality keeps "
+                 "more of them"));
   }
 
   static bool isLost(const AttributePlan& position, const uint32_t* corners) {

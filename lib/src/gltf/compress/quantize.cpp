@@ -68,12 +68,6 @@ bool fitTangents(const Extent& extent, uint8_t bits, Lattice& lattice) {
   return extent.isInside(-1.01f, 1.01f);
 }
 
-void useLattice(AttributePlan& attribute, const Lattice& lattice, uint8_t bits) {
-  attribute.bits = bits;
-  attribute.has_lattice = true;
-  attribute.lattice = lattice;
-}
-
 bool isFloat(const AttributePlan& attribute) {
   return attribute.format.component_type == ComponentType::kFloat32;
 }
@@ -86,9 +80,19 @@ std::string whereIs(const PiecePlan& piece, const AttributePlan& attribute) {
   return piece.parts[0].users[0].path() + ": " + attribute.label();
 }
 
+void useLattice(const PiecePlan& piece, AttributePlan& attribute, const Lattice& lattice,
+                uint8_t bits, const std::string& why_exact, std::vector<std::string>& notes) {
+  if (!why_exact.empty()) return notes.push_back(whereIs(piece, attribute) + why_exact);
+  attribute.bits = bits;
+  attribute.has_lattice = true;
+  attribute.lattice = lattice;
+}
+
 void PositionGroup::use(const Lattice& lattice, uint8_t bits, double max_distance) {
   for (const PlannedAttribute& member : finite) {
-    useLattice(*member.attribute, lattice, bits);
+    member.attribute->bits = bits;
+    member.attribute->has_lattice = true;
+    member.attribute->lattice = lattice;
     member.attribute->max_distance = max_distance;
   }
 }
@@ -186,8 +190,8 @@ class QuantizationPlanner {
     return !isRuinedByOutliers(extent, bits) && fitLattice(extent, bits, lattice);
   }
   static std::string outliersText(uint8_t bits) {
-    return " has outliers for which a lattice of " + std::to_string(bits) +
-           " bits would be too coarse for all other values";
+    return sentence(" has outliers for which a lattice of ", bits,
+                    " bits would be too coarse for all other values");
   }
 
   uint8_t bitsOf(Semantic semantic) const {
@@ -231,8 +235,7 @@ class QuantizationPlanner {
     } else if (!fitWithin(extent, bits, lattice)) {
       why = outliersText(bits) + "; it stays exact";
     }
-    if (why.empty()) return useLattice(attribute, lattice, bits);
-    notes_.push_back(whereIs(piece, attribute) + why);
+    useLattice(piece, attribute, lattice, bits, why, notes_);
   }
 
   /// Deltas of positions use the step of the positions, and those of unit vectors a step for the

@@ -34,14 +34,15 @@ bool fitAroundZero(const Extent& extent, float step, Lattice& lattice, uint8_t& 
 /// signs in w do not change. Returns false when they are not of unit length.
 bool fitTangents(const Extent& extent, uint8_t bits, Lattice& lattice);
 
-void useLattice(AttributePlan& attribute, const Lattice& lattice, uint8_t bits);
-
 bool isFloat(const AttributePlan& attribute);
 bool isBasePosition(const AttributePlan& attribute);
 
 /// Returns "/meshes/0/primitives/1: POSITION".
 std::string whereIs(const PiecePlan& piece, const AttributePlan& attribute);
-/// Notes of attributes that get no lattice. They follow what whereIs() returns.
+/// Puts an attribute on a lattice, or notes why it stays exact: a text that follows whereIs(). It
+/// is empty if there is no reason.
+void useLattice(const PiecePlan& piece, AttributePlan& attribute, const Lattice& lattice,
+                uint8_t bits, const std::string& why_exact, std::vector<std::string>& notes);
 inline constexpr char kNotFinite[] = " has NaN or infinite values and stays exact";
 inline constexpr char kNotUnit[] = " is not of unit length and stays exact";
 inline constexpr char kTooManySteps[] = " spans too many steps and stays exact";

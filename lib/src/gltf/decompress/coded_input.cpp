@@ -60,8 +60,7 @@ Result decodeView(const ForeignDecoders& decoders, uint32_t number, Room& room,
   const ViewCoding& coding = view.coding;
   const std::string where = at("/bufferViews", number) + "/extensions/" + coding.extension;
   if (coding.length / kMaxViewExpansion > view.length) {
-    view.fault = error(where, std::to_string(view.length) + " bytes cannot hold " +
-                                  std::to_string(coding.length) + " bytes");
+    view.fault = error(where, view.length, " bytes cannot hold ", coding.length, " bytes");
     return {};
   }
   if (!room.take(view.length)) {
@@ -140,8 +139,8 @@ class MeshReader {
     uint64_t view = 0;
     MCC_GLTF_TRY(readUnsigned(extension, "bufferView", coded.path, kNone, view));
     if (view >= document_.views.size() || document_.views[view].isCoded()) {
-      return error(coded.path + "/bufferView", "bufferView " + std::to_string(view) +
-                                                   " does not exist or is itself compressed");
+      return error(coded.path + "/bufferView", "bufferView ", view,
+                   " does not exist or is itself compressed");
     }
     coded.view = static_cast<uint32_t>(view);
     MCC_GLTF_TRY(accessorOf(findMember(primitive, "indices"), "indices", path, coded.indices));
@@ -221,8 +220,7 @@ class MeshReader {
                              is_attribute ? coded.coded.attributes[i].id : 0};
       const auto [found, is_new] = origins_.try_emplace(accessor, origin);
       if (found->second != origin) {
-        return error(coded.path, "accessor " + std::to_string(accessor) +
-                                     " is filled from two different places");
+        return error(coded.path, "accessor ", accessor, " is filled from two different places");
       }
       coded.is_known &= !is_new;
     }
@@ -254,8 +252,8 @@ class MeshReader {
     for (size_t i = 0; i < coded.attributes.size(); ++i) {
       const Accessor& accessor = document_.accessors[coded.attributes[i]];
       if (mesh.attributes[i].size() == accessor.count * accessor.tightBytes()) continue;
-      return error(coded.path, "decodes to another size than accessor " +
-                                   std::to_string(coded.attributes[i]) + " has");
+      return error(coded.path, "decodes to another size than accessor ", coded.attributes[i],
+                   " has");
     }
     for (size_t i = 0; i < coded.attributes.size(); ++i) {
       store(coded, coded.attributes[i], std::move(mesh.attributes[i]));

@@ -54,9 +54,8 @@ Result applySparse(const Document& document, const Accessor& accessor, const std
   for (uint64_t i = 0; i < sparse.count; ++i) {
     const uint32_t index = readLittleEndian(indices + i * index_bytes, index_bytes);
     if (index >= accessor.count) {
-      return error(path + "/sparse/indices", "index " + std::to_string(index) +
-                                                 " is outside the accessor of " +
-                                                 std::to_string(accessor.count) + " elements");
+      return error(path + "/sparse/indices", "index ", index, " is outside the accessor of ",
+                   accessor.count, " elements");
     }
     copyTight(values + i * accessor.elementBytes(), accessor,
               tight.data() + uint64_t{index} * accessor.tightBytes());
@@ -147,9 +146,8 @@ Result readAccessor(const Document& document, uint32_t index, AccessorData& elem
       return {};
     }
   } else if (accessor.count * elements.element_bytes > maxZeroBytes(document)) {
-    return error(path, "has no bufferView but claims " + std::to_string(accessor.count) +
-                           " elements; at most " + std::to_string(maxZeroBytes(document)) +
-                           " bytes of such elements are read");
+    return error(path, "has no bufferView but claims ", accessor.count, " elements; at most ",
+                 maxZeroBytes(document), " bytes of such elements are read");
   }
   copyElements(accessor, source, stride != 0 ? stride : accessor.elementBytes(), elements);
   if (accessor.sparse.count == 0) return {};
@@ -172,8 +170,8 @@ bool holdsIndices(ComponentType type, uint64_t vertex_count) {
 Result readIndices(const Document& document, uint32_t index, std::vector<uint32_t>& indices) {
   const Accessor& accessor = document.accessors[index];
   if (!isOfIndices(accessor)) {
-    return error(at("/accessors", index),
-                 "indices must be SCALAR of an unsigned type, not " + describeType(accessor));
+    return error(at("/accessors", index), "indices must be SCALAR of an unsigned type, not ",
+                 describeType(accessor));
   }
   AccessorData elements;
   MCC_GLTF_TRY(readAccessor(document, index, elements));
@@ -326,7 +324,7 @@ Result checkBound(const Json& accessor, const char* key, const std::vector<doubl
   if (declared == nullptr) return {};
   const std::string where = at(path, key);
   if (!declared->is_array() || declared->size() != decoded.size()) {
-    return error(where, "must be an array of " + std::to_string(decoded.size()) + " numbers");
+    return error(where, "must be an array of ", decoded.size(), " numbers");
   }
   for (size_t i = 0; i < decoded.size(); ++i) {
     double value = 0;
@@ -334,8 +332,8 @@ Result checkBound(const Json& accessor, const char* key, const std::vector<doubl
     if (!asNumber((*declared)[i], value)) return error(where, "must be an array of numbers");
     if (type == ComponentType::kFloat32) value = static_cast<float>(value);
     if (value == decoded[i]) continue;
-    return error(where, "component " + std::to_string(i) + " is " + printJson((*declared)[i]) +
-                            ", but " + printJson(Json(decoded[i])) + " for the decoded elements");
+    return error(where, "component ", i, " is ", printJson((*declared)[i]), ", but ",
+                 printJson(Json(decoded[i])), " for the decoded elements");
   }
   return {};
 }

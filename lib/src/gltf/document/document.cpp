@@ -37,7 +37,7 @@ bool componentTypeOf(uint64_t gl_type, ComponentType& type) {
 Result readString(const Json& object, const char* key, const std::string& path, std::string& text) {
   const Json* member = findMember(object, key);
   if (member == nullptr || !member->is_string()) {
-    return error(path, std::string("\"") + key + "\" is missing or not a string");
+    return error(path, "\"", key, "\" is missing or not a string");
   }
   text = member->get<std::string>();
   return {};
@@ -56,7 +56,7 @@ Result checkShape(const Json& json) {
   }
   const std::string number = version->get<std::string>();
   if (!number.starts_with("2.")) {
-    return error("/asset/version", "glTF " + number + " is not supported; only glTF 2.0 is");
+    return error("/asset/version", "glTF ", number, " is not supported; only glTF 2.0 is");
   }
   for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
     const Json* list = findMember(json, key);
@@ -97,8 +97,7 @@ Result fetchUri(const std::string& uri, const std::string& where, const FileRead
   std::string path;
   MCC_GLTF_TRY(relativePathOf(uri, where, path));
   if (!read_file) {
-    return error(where,
-                 "the file \"" + path + "\" is needed; convert from a path, not from memory");
+    return error(where, "the file \"", path, "\" is needed; convert from a path, not from memory");
   }
   return read_file(path, where, bytes);
 }
@@ -132,8 +131,8 @@ class BufferLoader {
       MCC_GLTF_TRY(fetch(json, path, file, bytes));
     }
     if (length > bytes.size()) {
-      return error(path + "/byteLength", std::to_string(length) + " bytes are announced but only " +
-                                             std::to_string(bytes.size()) + " are there");
+      return error(path + "/byteLength", length, " bytes are announced but only ", bytes.size(),
+                   " are there");
     }
     document_.buffers.back() = bytes.first(length);
     if (chunk != kNoChunk || !file.empty()) users_[{chunk, file}].push_back(number);
@@ -176,10 +175,10 @@ class BufferLoader {
     if (has_uri) return error(where, "the buffer has a URI, too");
     if (glb_ == nullptr) return error(where, "only a GLB has chunks");
     if (named >= glb_->chunks.size()) {
-      return error(where, "there is no chunk " + std::to_string(named));
+      return error(where, "there is no chunk ", named);
     }
     if (glb_->chunks[named].type != kBinChunk) {
-      return error(where, "chunk " + std::to_string(named) + " is not a BIN chunk");
+      return error(where, "chunk ", named, " is not a BIN chunk");
     }
     chunk = named;
     return {};
@@ -222,20 +221,17 @@ Result parseBytes(const Document& document, const Json& json, const std::string&
   uint64_t buffer = 0;
   MCC_GLTF_TRY(readUnsigned(json, "buffer", path, kMaxCount, buffer));
   if (buffer >= document.buffers.size()) {
-    return error(path + "/buffer", "there is no buffer " + std::to_string(buffer));
+    return error(path + "/buffer", "there is no buffer ", buffer);
   }
   view.buffer = static_cast<uint32_t>(buffer);
   MCC_GLTF_TRY(readOptionalUnsigned(json, "byteOffset", path, kMaxCount, view.offset));
   MCC_GLTF_TRY(readUnsigned(json, "byteLength", path, kMaxCount, view.length));
   const uint64_t available = document.buffers[buffer].size();
   if (view.offset > available || view.length > available - view.offset) {
-    view.fault =
-        document.isMissing(view.buffer)
-            ? error(path, "buffer " + std::to_string(buffer) + " has neither a URI nor a BIN chunk")
-            : error(path, "bytes " + std::to_string(view.offset) + " to " +
-                              std::to_string(view.offset + view.length) + " are outside buffer " +
-                              std::to_string(buffer) + " of " + std::to_string(available) +
-                              " bytes");
+    view.fault = document.isMissing(view.buffer)
+                     ? error(path, "buffer ", buffer, " has neither a URI nor a BIN chunk")
+                     : error(path, "bytes ", view.offset, " to ", view.offset + view.length,
+                             " are outside buffer ", buffer, " of ", available, " bytes");
     view.offset = std::min(view.offset, available);
     view.length = std::min(view.length, available - view.offset);
   }
@@ -256,8 +252,7 @@ Result parseCoding(const Json& json, const std::string& path, uint64_t length, V
   coding.stride = static_cast<uint32_t>(stride);
   coding.length = coding.count * stride;
   if (coding.length != length && fault.ok()) {
-    fault = error(path, "codes " + std::to_string(coding.length) + " bytes, but the view has " +
-                            std::to_string(length));
+    fault = error(path, "codes ", coding.length, " bytes, but the view has ", length);
   }
   return {};
 }
@@ -287,8 +282,7 @@ Result checkRange(const Document& document, uint32_t view, uint64_t offset, uint
   const uint64_t available = document.views[view].elementsLength();
   if (end <= available) return {};
   if (document.isMissing(document.views[view].buffer)) return document.views[view].fault;
-  return error(path, "needs " + std::to_string(end) + " bytes of bufferView " +
-                         std::to_string(view) + ", which has " + std::to_string(available));
+  return error(path, "needs ", end, " bytes of bufferView ", view, ", which has ", available);
 }
 
 Result readViewIndex(const Document& document, const Json& json, const std::string& path,
@@ -296,7 +290,7 @@ Result readViewIndex(const Document& document, const Json& json, const std::stri
   uint64_t index = 0;
   MCC_GLTF_TRY(readUnsigned(json, "bufferView", path, kMaxCount, index));
   if (index >= document.views.size()) {
-    return error(path + "/bufferView", "there is no bufferView " + std::to_string(index));
+    return error(path + "/bufferView", "there is no bufferView ", index);
   }
   view = static_cast<uint32_t>(index);
   return {};
@@ -313,8 +307,7 @@ Result parseSparse(const Document& document, const Json& json, const std::string
   uint64_t gl_type = 0;
   MCC_GLTF_TRY(readUnsigned(*indices, "componentType", path + "/indices", kMaxCount, gl_type));
   if (!componentTypeOf(gl_type, sparse.index_type) || (gl_type & 1) == 0) {
-    return error(path + "/indices/componentType",
-                 std::to_string(gl_type) + " is not an index type");
+    return error(path + "/indices/componentType", gl_type, " is not an index type");
   }
   MCC_GLTF_TRY(readViewIndex(document, *indices, path + "/indices", sparse.index_view));
   MCC_GLTF_TRY(readOptionalUnsigned(*indices, "byteOffset", path + "/indices", kMaxCount,
@@ -363,9 +356,8 @@ Result parseAccessor(const Document& document, const Json& json, const std::stri
     const uint64_t stride = document.views[accessor.view].stride;
     const uint64_t bytes = accessor.elementBytes();
     if (stride != 0 && stride < bytes) {
-      return error(path, "elements of " + std::to_string(bytes) + " bytes do not fit the stride " +
-                             std::to_string(stride) + " of bufferView " +
-                             std::to_string(accessor.view));
+      return error(path, "elements of ", bytes, " bytes do not fit the stride ", stride,
+                   " of bufferView ", accessor.view);
     }
     MCC_GLTF_TRY(checkRange(document, accessor.view, accessor.offset,
                             accessor.rangeBytes(accessor.count, stride), path));
@@ -656,10 +648,9 @@ void DecodedBytes::add(uint64_t bytes) {
 
 Result DecodedBytes::check() const {
   if (total_ <= limit_) return {};
-  return error("", "its " + std::to_string(file_bytes_) + " bytes ask for " +
-                       std::to_string(total_) + " bytes of decoded geometry; the limit is " +
-                       std::to_string(limit_) +
-                       ", which max_decoded_bytes (--max-decoded-bytes) raises");
+  return error("", "its ", file_bytes_, " bytes ask for ", total_,
+               " bytes of decoded geometry; the limit is ", limit_,
+               ", which max_decoded_bytes (--max-decoded-bytes) raises");
 }
 
 Result toResult(const Status& status, const std::string& where) {

@@ -58,7 +58,7 @@ bool readAccessorNumber(const Document& document, const Json& number, const std:
   uint64_t index = 0;
   if (!issues.passes(rule, readUnsigned(number, path, kMaxNumber, index))) return false;
   if (index >= document.accessors.size()) {
-    issues.add(rule::kReference, path, "there is no accessor " + std::to_string(index));
+    issues.add(rule::kReference, path, "there is no accessor ", index);
     return false;
   }
   accessor = static_cast<uint32_t>(index);
@@ -99,9 +99,8 @@ void readTargets(const Document& document, const Json& extension, const Json& pr
   }
   const Json& own = arrayOf(primitive, "targets");
   if (targets->size() != own.size()) {
-    issues.add(rule::kTargetCount, path,
-               "has " + std::to_string(targets->size()) + " targets, the primitive " +
-                   std::to_string(own.size()));
+    issues.add(rule::kTargetCount, path, "has ", targets->size(), " targets, the primitive ",
+               own.size());
   }
   const std::string own_path = primitivePath(use.mesh, use.primitive) + "/targets";
   for (uint32_t i = 0; i < std::min(targets->size(), own.size()); ++i) {
@@ -117,14 +116,13 @@ void readView(const Document& document, const Json& object, Issues& issues, Part
   }
   const std::string path = use.path + "/bufferView";
   if (number >= document.views.size()) {
-    return issues.add(rule::kReference, path, "there is no bufferView " + std::to_string(number));
+    return issues.add(rule::kReference, path, "there is no bufferView ", number);
   }
   const BufferView& view = document.views[number];
   if (!view.fault.ok()) return issues.add(rule::kPayloadView, path, view.fault.message());
   if (view.isCoded()) {
-    return issues.add(
-        rule::kPayloadView, path,
-        "bufferView " + std::to_string(number) + " is coded with " + view.coding.extension);
+    return issues.add(rule::kPayloadView, path, "bufferView ", number, " is coded with ",
+                      view.coding.extension);
   }
   use.view = static_cast<uint32_t>(number);
 }
@@ -156,8 +154,8 @@ void readExtension(const Document& document, const Json& extension, const Json& 
   use.path = primitive_path + "/extensions/" + kExtensionName;
   if (!extension.is_object()) return issues.add(rule::kSchema, use.path, "must be an object");
   if (findMember(primitive["extensions"], kMeshExtension) != nullptr) {
-    issues.add(rule::kTwoCompressions, use.path,
-               std::string("the primitive is compressed with ") + kMeshExtension + ", too");
+    issues.add(rule::kTwoCompressions, use.path, "the primitive is compressed with ",
+               kMeshExtension, ", too");
   }
   readPart(document, extension, issues, use);
   uint64_t mode = 4;
@@ -228,9 +226,8 @@ class Sharing {
     if (accessor == kNone) return;
     const auto [found, is_new] = origins_.try_emplace(accessor, origin);
     if (is_new || found->second == origin) return;
-    issues_.add(rule::kFilledTwice, path,
-                "accessor " + std::to_string(accessor) +
-                    " is filled from two different places of the payloads");
+    issues_.add(rule::kFilledTwice, path, "accessor ", accessor,
+                " is filled from two different places of the payloads");
   }
 
   void claimAll(const ExtensionUse& use) {
@@ -243,9 +240,8 @@ class Sharing {
   /// Notes that something refers to an accessor which a payload fills. `accessor` may be kNone.
   void note(uint32_t accessor, const std::string& path) {
     if (!origins_.contains(accessor)) return;
-    issues_.add(rule::kUsedElsewhere, path,
-                "accessor " + std::to_string(accessor) +
-                    " is filled from a payload; only what that payload fills may refer to it");
+    issues_.add(rule::kUsedElsewhere, path, "accessor ", accessor,
+                " is filled from a payload; only what that payload fills may refer to it");
   }
 
   const Document& document_;
@@ -256,9 +252,8 @@ class Sharing {
 /// Checks that a piece has an attribute. `path` is the place in the JSON that says so.
 bool hasAttribute(uint64_t id, const std::string& path, const PieceInfo& piece, Issues& issues) {
   if (id < piece.attributes.size()) return true;
-  issues.add(rule::kAttributeNumber, path,
-             "there is no attribute " + std::to_string(id) + " in the payload's piece, which has " +
-                 std::to_string(piece.attributes.size()));
+  issues.add(rule::kAttributeNumber, path, "there is no attribute ", id,
+             " in the payload's piece, which has ", piece.attributes.size());
   return false;
 }
 
@@ -268,9 +263,8 @@ void checkAttribute(const Document& document, const ExtensionUse::AttributeUse& 
   const Accessor& accessor = document.accessors[attribute.accessor];
   const std::string accessor_path = at("/accessors", attribute.accessor);
   if (accessor.count != piece.wedge_count) {
-    issues.add(rule::kCount, accessor_path + "/count",
-               std::to_string(accessor.count) + " does not match the payload, which has " +
-                   std::to_string(piece.wedge_count) + " vertices");
+    issues.add(rule::kCount, accessor_path + "/count", accessor.count,
+               " does not match the payload, which has ", piece.wedge_count, " vertices");
   }
   if (!accessor.is_known_type) {
     return issues.add(rule::kType, accessor_path,
@@ -284,15 +278,13 @@ void checkAttribute(const Document& document, const ExtensionUse::AttributeUse& 
   const AttributeFormat named = formatOf(attribute.name, attribute.target, accessor);
   if (coded.component_type != named.component_type ||
       coded.component_count != named.component_count || coded.normalized != named.normalized) {
-    return issues.add(rule::kType, accessor_path,
-                      "its type is " + describeType(accessor) +
-                          ", which is not that of attribute " + std::to_string(attribute.id) +
-                          " in the payload");
+    return issues.add(rule::kType, accessor_path, "its type is ", describeType(accessor),
+                      ", which is not that of attribute ", attribute.id, " in the payload");
   }
   if (coded != named) {
-    issues.add(rule::kSemantic, attribute.path,
-               "attribute " + std::to_string(attribute.id) + " of the payload is not " +
-                   attribute.name + (attribute.target == kNone ? "" : " of this morph target"));
+    issues.add(rule::kSemantic, attribute.path, "attribute ", attribute.id,
+               " of the payload is not ", attribute.name,
+               (attribute.target == kNone ? "" : " of this morph target"));
   }
 }
 
@@ -304,17 +296,16 @@ void checkIndices(const Document& document, const ExtensionUse& use, const Piece
   if (use.part < piece.parts.size()) {
     const uint64_t count = uint64_t{3} * piece.parts[use.part].triangle_count;
     if (accessor.count != count) {
-      issues.add(rule::kCount, path + "/count",
-                 std::to_string(accessor.count) + " does not match the payload, which has " +
-                     std::to_string(count) + " indices");
+      issues.add(rule::kCount, path + "/count", accessor.count,
+                 " does not match the payload, which has ", count, " indices");
     }
   }
   if (!isOfIndices(accessor) || accessor.normalized) {
     return issues.add(rule::kIndices, path, "indices must be SCALAR of an unsigned type");
   }
   if (!holdsIndices(accessor.component_type, piece.wedge_count)) {
-    issues.add(rule::kIndexRange, path + "/componentType",
-               "cannot hold indices of " + std::to_string(piece.wedge_count) + " vertices");
+    issues.add(rule::kIndexRange, path + "/componentType", "cannot hold indices of ",
+               piece.wedge_count, " vertices");
   }
 }
 
@@ -328,36 +319,31 @@ void checkOrdinaryAttributes(const Document& document, const ExtensionUse& use,
                       document.accessors[attribute.accessor].count == piece.wedge_count;
     if (fits) return;
     issues.add(rule::kCount, pathOf(primitive, attribute),
-               "the accessor does not have the payload's " + std::to_string(piece.wedge_count) +
-                   " elements");
+               "the accessor does not have the payload's ", piece.wedge_count, " elements");
   });
 }
 
 void checkPart(const PartUse& use, const PieceInfo& piece, Issues& issues) {
   if (use.part >= piece.parts.size()) {
-    issues.add(rule::kPart, use.path + "/part",
-               "there is no part " + std::to_string(use.part) + " in the piece, which has " +
-                   std::to_string(piece.parts.size()));
+    issues.add(rule::kPart, use.path + "/part", "there is no part ", use.part,
+               " in the piece, which has ", piece.parts.size());
   } else if (piece.parts[use.part].triangle_count == 0) {
-    issues.add(rule::kPart, use.path,
-               "part " + std::to_string(use.part) +
-                   " of the piece has no triangles, so no primitive may name it");
+    issues.add(rule::kPart, use.path, "part ", use.part,
+               " of the piece has no triangles, so no primitive may name it");
   }
 }
 
 /// Returns the piece of a use; null, with an issue, if there is none or it has no vertices.
 const PieceInfo* pieceOf(const PartUse& use, const PayloadInfo& info, Issues& issues) {
   if (use.piece >= info.pieces.size()) {
-    issues.add(rule::kPiece, use.path + "/piece",
-               "there is no piece " + std::to_string(use.piece) + " in the payload, which has " +
-                   std::to_string(info.pieces.size()));
+    issues.add(rule::kPiece, use.path + "/piece", "there is no piece ", use.piece,
+               " in the payload, which has ", info.pieces.size());
     return nullptr;
   }
   const PieceInfo& piece = info.pieces[use.piece];
   if (piece.wedge_count != 0) return &piece;
-  issues.add(rule::kPiece, use.path,
-             "piece " + std::to_string(use.piece) +
-                 " of the payload has no vertices, so no primitive may name it");
+  issues.add(rule::kPiece, use.path, "piece ", use.piece,
+             " of the payload has no vertices, so no primitive may name it");
   return nullptr;
 }
 
@@ -455,10 +441,9 @@ void checkPreview(const Document& document, const ExtensionUse& use, const Paylo
     if (!accessor.is_known_type) continue;  // reported for the payload of the primitive
     const AttributeFormat named = formatOf(attribute.name, attribute.target, accessor);
     if (piece->attributes[attribute.id].format == named) continue;
-    issues.add(rule::kSemantic, preview.path,
-               "attribute " + std::to_string(attribute.id) + " of the preview is not " +
-                   attribute.name + (attribute.target == kNone ? "" : " of this morph target") +
-                   ", or has another type");
+    issues.add(rule::kSemantic, preview.path, "attribute ", attribute.id, " of the preview is not ",
+               attribute.name, (attribute.target == kNone ? "" : " of this morph target"),
+               ", or has another type");
   }
 }
 

@@ -88,8 +88,9 @@ class Issues {
   /// All issues are counted, but only the first `max_kept` are kept.
   explicit Issues(size_t max_kept) : max_kept_(max_kept) {}
 
-  void add(const Rule& rule, std::string where, std::string what) {
-    add(rule, Result{std::move(where), std::move(what)});
+  template <typename... Parts>
+  void add(const Rule& rule, std::string where, const Parts&... what) {
+    add(rule, error(std::move(where), what...));
   }
   /// Adds an issue if a fallible call failed. Returns whether it succeeded.
   bool passes(const Rule& rule, const Result& result) {

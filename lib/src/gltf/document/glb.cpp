@@ -33,7 +33,7 @@ void appendU32(std::vector<uint8_t>& file, uint64_t value) {
   for (int shift = 0; shift < 32; shift += 8) file.push_back(static_cast<uint8_t>(value >> shift));
 }
 
-std::string byte(uint64_t offset) { return "byte " + std::to_string(offset); }
+std::string byte(uint64_t offset) { return sentence("byte ", offset); }
 
 uint64_t padded(uint64_t bytes, uint64_t alignment) {
   return (bytes + alignment - 1) & ~(alignment - 1);
@@ -45,8 +45,8 @@ Result readFraming(std::span<const uint8_t> file, Framing& framing) {
   }
   const uint32_t version = glbVersion(file);
   if (version != 2 && version != 3) {
-    return error("byte 4", "GLB version " + std::to_string(version) +
-                               "; only versions 2 (glTF 2.0) and 3 (glTF 2.1) can be read");
+    return error("byte 4", "GLB version ", version,
+                 "; only versions 2 (glTF 2.0) and 3 (glTF 2.1) can be read");
   }
   framing = version == 2 ? kGlb2 : kGlb3;
   if (file.size() < framing.header_bytes) {
@@ -58,13 +58,12 @@ Result readFraming(std::span<const uint8_t> file, Framing& framing) {
 Result readLength(std::span<const uint8_t> file, const Framing& framing, uint64_t& length) {
   length = glbLength(file);
   if (length > file.size()) {
-    return error("byte 8", "the header says " + std::to_string(length) +
-                               " bytes but the file has " + std::to_string(file.size()) +
-                               ": it is truncated");
+    return error("byte 8", "the header says ", length, " bytes but the file has ", file.size(),
+                 ": it is truncated");
   }
   const bool is_aligned = framing.version == 3 || length % framing.alignment == 0;
   if (length < framing.header_bytes + framing.chunk_header_bytes || !is_aligned) {
-    return error("byte 8", "the length " + std::to_string(length) + " is not valid for a GLB");
+    return error("byte 8", "the length ", length, " is not valid for a GLB");
   }
   return {};
 }
@@ -76,18 +75,16 @@ Result readChunk(std::span<const uint8_t> file, uint64_t offset, const Framing& 
   const uint64_t bytes = is_glb2 ? readU32(file, offset) : readU64(file, offset + 8);
   chunk.type = readU32(file, offset + (is_glb2 ? 4 : 0));
   if (is_glb2 && bytes % framing.alignment != 0) {
-    return error(byte(offset),
-                 "the chunk length " + std::to_string(bytes) + " is not a multiple of 4");
+    return error(byte(offset), "the chunk length ", bytes, " is not a multiple of 4");
   }
   if (bytes > file.size() - offset - framing.chunk_header_bytes) {
-    return error(byte(offset),
-                 "the chunk of " + std::to_string(bytes) + " bytes runs past the end of the file");
+    return error(byte(offset), "the chunk of ", bytes, " bytes runs past the end of the file");
   }
   chunk.bytes = file.subspan(offset + framing.chunk_header_bytes, bytes);
   const uint32_t encoding = is_glb2 ? 0 : readU32(file, offset + 4);
   if (encoding == 0) return {};
-  return error(byte(offset + 4), "the chunk has the encoding " + std::to_string(encoding) +
-                                     "; only chunks without encoding (0) can be read");
+  return error(byte(offset + 4), "the chunk has the encoding ", encoding,
+               "; only chunks without encoding (0) can be read");
 }
 
 /// Version 2 has the JSON first, and at most one BIN chunk.
@@ -167,14 +164,14 @@ struct Parts {
 
 Result chooseFraming(const Parts& parts, uint32_t version, Framing& framing) {
   if (version != kSmallestGlbVersion && version != 2 && version != 3) {
-    return error("", "the version of a GLB is 2 or 3, not " + std::to_string(version));
+    return error("", "the version of a GLB is 2 or 3, not ", version);
   }
   const uint64_t length = parts.length(kGlb2);
   const bool fits = length <= kMaxGlb2Bytes;
   if (version == 2 && !fits) {
-    return error("", "the result needs " + std::to_string(length) +
-                         " bytes; a GLB of version 2 cannot be larger than 4 GiB, one of version 3 "
-                         "can");
+    return error("", "the result needs ", length,
+                 " bytes; a GLB of version 2 cannot be larger than 4 GiB, one of version 3 "
+                 "can");
   }
   framing = version == 3 || !fits ? kGlb3 : kGlb2;
   return {};

@@ -150,29 +150,29 @@ Result relativePathOf(const std::string& uri, const std::string& where, std::str
   const std::string advice = "; use a relative URI of a file next to the model";
   if (uri.empty()) return error(where, "the URI is empty");
   if (!decodePercent(uri, path)) {
-    return error(where, "the percent encoding of " + quoted(uri) + " is damaged");
+    return error(where, "the percent encoding of ", quoted(uri), " is damaged");
   }
   if (hasControlCharacter(path)) {
-    return error(where, "the URI " + quoted(uri) + " has control characters");
+    return error(where, "the URI ", quoted(uri), " has control characters");
   }
   // No path could be made from such a text, see pathOf().
   if (kIsWindows && !isUtf8(path)) {
-    return error(where, "the URI " + quoted(uri) +
-                            " is not UTF-8, so no file on Windows can have that name; rename it");
+    return error(where, "the URI ", quoted(uri),
+                 " is not UTF-8, so no file on Windows can have that name; rename it");
   }
   // Test before and after decoding: "%66ile:" must not become a scheme, nor "a:b" a path.
   if (hasScheme(uri) || hasScheme(path)) {
-    return error(where, "the URI " + quoted(uri) + " is not relative and is refused" + advice);
+    return error(where, "the URI ", quoted(uri), " is not relative and is refused", advice);
   }
   for (char& c : path) {
     if (c == '\\') c = '/';
   }
   if (path.front() == '/') {
-    return error(where, "the URI " + quoted(uri) + " is absolute and is refused" + advice);
+    return error(where, "the URI ", quoted(uri), " is absolute and is refused", advice);
   }
   if (climbsOut(path)) {
-    return error(where, "the URI " + quoted(uri) +
-                            " leaves the folder of the model and is refused" + advice);
+    return error(where, "the URI ", quoted(uri), " leaves the folder of the model and is refused",
+                 advice);
   }
   return {};
 }
@@ -258,10 +258,10 @@ std::string endingOf(const std::string& file_name) {
 Result readCopy(bool is_image, const FileReader& read_file, const std::string& where,
                 SideFile& file) {
   const std::string name = "\"" + file.path + "\"";
-  if (!isVisiblePath(file.path)) return error(where, name + " is the name of a hidden file");
+  if (!isVisiblePath(file.path)) return error(where, name, " is the name of a hidden file");
   MCC_GLTF_TRY(read_file(file.path, where, file.bytes));
   if (!is_image || !imageTypeOf(file.bytes).empty()) return {};
-  return error(where, name + " is not a known type of image");
+  return error(where, name, " is not a known type of image");
 }
 
 }  // namespace
@@ -284,7 +284,7 @@ Result containerOf(const std::string& file_name, Container& container) {
 
 Result checkName(const std::string& name, const std::string& where) {
   if (isUsableName(name)) return {};
-  return error(where, "no URI can name a file \"" + name + "\"; choose another name");
+  return error(where, "no URI can name a file \"", name, "\"; choose another name");
 }
 
 std::string nameOfMade(const Container& container, SideFile::Kind kind,

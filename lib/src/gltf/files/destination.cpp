@@ -89,9 +89,9 @@ Result Destination::checkSource(const fs::path& source, const Json& json) {
   for (const std::string& path : filesBeside(json)) {
     beside.push_back(folderOf(source) / pathOf(path));
     if (!isSameFile(main_path_, beside.back())) continue;
-    return error(textOf(main_path_), "\"" + textOf(main_path_) +
-                                         "\" is part of the input and would be replaced; choose "
-                                         "another name or folder");
+    return error(textOf(main_path_), "\"", textOf(main_path_),
+                 "\" is part of the input and would be replaced; choose "
+                 "another name or folder");
   }
   if (isSameFile(source, main_path_)) return {};
   kept_ = std::move(beside);
@@ -117,7 +117,7 @@ Result Destination::createFolders(const fs::path& folder) {
       new_folders_.push_back(*path);
       if (temporaries_ != nullptr) temporaries_->add(*path);
     }
-    if (code) return error(textOf(*path), "cannot be created: " + code.message());
+    if (code) return error(textOf(*path), "cannot be created: ", code.message());
   }
   return {};
 }
@@ -140,9 +140,8 @@ Result Destination::writeCopy(const SideFile& copy) {
   if (side != nullptr && hasContent(side->file.temporaryPath(), copy.bytes)) return {};
   const bool is_ours = side != nullptr || key == keyOfName(textOf(main_path_.filename()));
   if (is_ours || (is_there && !refersTo(main_path_, key))) {
-    return error(textOf(main_path_), "a file next to the input has to be copied to \"" +
-                                         textOf(path) +
-                                         "\", which is another file; choose another folder");
+    return error(textOf(main_path_), "a file next to the input has to be copied to \"",
+                 textOf(path), "\", which is another file; choose another folder");
   }
   MCC_GLTF_TRY(createFolders(folderOf(path)));
   return writeSide(copy);
@@ -181,7 +180,7 @@ FileReader Destination::reader() const {
   return [this](const std::string& path, const std::string& where, std::vector<uint8_t>& bytes) {
     const Side* side = sideOf(keyOfName(path));
     if (side != nullptr) return readFile(side->file.temporaryPath(), bytes);
-    return error(where, "\"" + path + "\" was not written");
+    return error(where, "\"", path, "\" was not written");
   };
 }
 

@@ -53,8 +53,7 @@ int writeAll(int file, std::span<const uint8_t> bytes) {
 }
 
 Result tooLarge(const std::string& name, uint64_t most_bytes) {
-  return error(
-      name, "has more than the " + std::to_string(most_bytes) + " bytes that are read of a file");
+  return error(name, "has more than the ", most_bytes, " bytes that are read of a file");
 }
 
 /// Returns how far to read a file that begins with these bytes. More than there are means:
@@ -99,7 +98,7 @@ Result readWhole(int file, uint64_t size, const std::string& name, std::vector<u
 Result readRegularFile(int file, const fs::path& path, std::vector<uint8_t>& bytes) {
   std::error_code code;
   const uintmax_t size = fs::file_size(path, code);
-  if (code) return error(textOf(path), "cannot be read: " + code.message());
+  if (code) return error(textOf(path), "cannot be read: ", code.message());
   return readWhole(file, size, textOf(path), bytes);
 }
 
@@ -124,7 +123,7 @@ Result readStream(int file, const std::string& name, std::vector<uint8_t>& bytes
     const ptrdiff_t count = system::readSome(file, bytes.data() + size, kReadBytes);
     bytes.resize(size + (count > 0 ? static_cast<size_t>(count) : 0));
     if (count == 0) return {};
-    if (count < 0 && errno != EINTR) return error(name, "cannot be read: " + reasonOf(errno));
+    if (count < 0 && errno != EINTR) return error(name, "cannot be read: ", reasonOf(errno));
   }
   const uint64_t most = isGlb(bytes) ? kMaxFileBytes : kMaxStreamedJson;
   return bytes.size() <= most ? Result{} : tooLarge(name, most);
@@ -136,7 +135,7 @@ Result readFile(const fs::path& path, std::vector<uint8_t>& bytes) {
   if (!fs::exists(status)) return error(textOf(path), "there is no such file");
   if (fs::is_directory(status)) return error(textOf(path), "is a folder; name a file in it");
   const int file = system::openToRead(path);
-  if (file < 0) return error(textOf(path), "cannot be opened: " + reasonOf(errno));
+  if (file < 0) return error(textOf(path), "cannot be opened: ", reasonOf(errno));
   Result result = fs::is_regular_file(status) ? readRegularFile(file, path, bytes)
                                               : readStream(file, textOf(path), bytes);
   system::close(file);
@@ -155,7 +154,7 @@ Result resolve(const fs::path& file, const fs::path& within, fs::path& base, fs:
   if (code == std::errc::no_such_file_or_directory || code == std::errc::not_a_directory) {
     return error("", "there is no such file");
   }
-  if (code) return error("", "cannot be opened: " + code.message());
+  if (code) return error("", "cannot be opened: ", code.message());
   relative = real.lexically_relative(base);
   if (relative.empty() || *relative.begin() == "..") {
     return error("",
@@ -180,7 +179,7 @@ Result NamedFile::open(const fs::path& folder, const std::string& name, const fs
   fs::path relative;
   MCC_GLTF_TRY(resolve(folder / pathOf(name), within.empty() ? folder : within, base, relative));
   file_ = system::openInside(base, relative);
-  if (file_ < 0) return error("", std::string("cannot be opened: ") + std::strerror(errno));
+  if (file_ < 0) return error("", "cannot be opened: ", std::strerror(errno));
   const std::optional<uint64_t> size = system::sizeOfRegular(file_);
   if (!size) return error("", "is not a regular file");
   size_ = *size;
@@ -204,7 +203,7 @@ FileReader readerOf(const fs::path& folder, const fs::path& within) {
   return [folder, within](const std::string& name, const std::string& where,
                           std::vector<uint8_t>& bytes) {
     const Result read = readNamed(folder, name, bytes, within);
-    return read.ok() ? read : error(where, "\"" + name + "\": " + read.what);
+    return read.ok() ? read : error(where, "\"", name, "\": ", read.what);
   };
 }
 
@@ -258,11 +257,11 @@ Result writeStream(const fs::path& path, std::span<const uint8_t> bytes) {
   const std::optional<int> stream = system::openStreamNamed(target);
   // Duplicate an open stream instead of opening it again, which would begin at the start of a file.
   const int file = stream ? system::duplicate(*stream) : system::openToWrite(target);
-  if (file < 0) return error(textOf(path), "cannot be opened: " + reasonOf(errno));
+  if (file < 0) return error(textOf(path), "cannot be opened: ", reasonOf(errno));
   int failure = writeAll(file, bytes);
   if (system::close(file) != 0 && failure == 0) failure = errno;
   if (failure == 0) return {};
-  return error(textOf(path), "cannot be written: " + reasonOf(failure));
+  return error(textOf(path), "cannot be written: ", reasonOf(failure));
 }
 
 ReplacementFile::ReplacementFile(fs::path destination, TemporaryFiles* temporaries)
@@ -292,13 +291,13 @@ Result ReplacementFile::check() const {
     return error(name, "is a symbolic link that leads nowhere; remove it");
   }
   if (!fs::exists(folder, code)) {
-    return error(name, "the folder \"" + textOf(folder) + "\" does not exist; create it first");
+    return error(name, "the folder \"", textOf(folder), "\" does not exist; create it first");
   }
   if (!fs::is_directory(folder, code)) {
-    return error(name, "\"" + textOf(folder) + "\" is not a folder");
+    return error(name, "\"", textOf(folder), "\" is not a folder");
   }
   if (!system::mayWrite(folder)) {
-    return error(name, "the folder \"" + textOf(folder) + "\" is read-only; choose another one");
+    return error(name, "the folder \"", textOf(folder), "\" is read-only; choose another one");
   }
   if (fs::exists(target_, code) && !system::mayWrite(target_)) {
     return error(name, "the file exists and is read-only; make it writable or choose another name");
@@ -321,7 +320,7 @@ Result ReplacementFile::create(int& file, const fs::path& older) {
   if (file < 0) {
     const int failure = errno;
     temporary_.clear();  // a file of that name is not ours
-    return error(textOf(destination_), "cannot be written: " + reasonOf(failure));
+    return error(textOf(destination_), "cannot be written: ", reasonOf(failure));
   }
   if (temporaries_ != nullptr) temporaries_->add(temporary_);
   if (permissions) system::setPermissions(file, *permissions);
@@ -339,20 +338,21 @@ Result ReplacementFile::write(std::span<const uint8_t> bytes, const fs::path& ol
   if (failure == 0 && is_replacing_ && system::flush(file) != 0) failure = errno;
   if (system::close(file) != 0 && failure == 0) failure = errno;
   if (failure == 0) return {};
-  return error(textOf(destination_), "cannot be written: " + reasonOf(failure));
+  return error(textOf(destination_), "cannot be written: ", reasonOf(failure));
 }
 
 Result ReplacementFile::flushName() const {
   if (!is_replacing_ || system::flushFolder(folderOf(target_)) == 0) return {};
-  return error(textOf(destination_), "was replaced, but its folder cannot be stored: " +
-                                         reasonOf(errno) + "; check the disk and write it again");
+  return error(textOf(destination_),
+               "was replaced, but its folder cannot be stored: ", reasonOf(errno),
+               "; check the disk and write it again");
 }
 
 Result ReplacementFile::commit() {
   const TemporaryFiles::Lock held = lockOf(temporaries_);
   std::error_code code;
   system::rename(temporary_, target_, code);
-  if (code) return error(textOf(destination_), "cannot be written: " + code.message());
+  if (code) return error(textOf(destination_), "cannot be written: ", code.message());
   if (temporaries_ != nullptr) temporaries_->forget(temporary_);
   temporary_.clear();
   return {};

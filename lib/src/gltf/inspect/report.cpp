@@ -332,8 +332,8 @@ Json pieceJson(const InspectPiece& piece) {
 std::string typeText(const AttributeInfo& attribute) {
   static constexpr const char* kTypes[] = {"i8", "u8", "i16", "u16", "u32", "f32"};
   const AttributeFormat& format = attribute.format;
-  return std::string(kTypes[static_cast<size_t>(format.component_type)]) + "x" +
-         std::to_string(format.component_count) + (format.normalized ? "n" : "");
+  return sentence(kTypes[static_cast<size_t>(format.component_type)], "x", format.component_count,
+                  (format.normalized ? "n" : ""));
 }
 
 std::string surfaceName(SurfaceCoding surface) {
