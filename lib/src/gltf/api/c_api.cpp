@@ -86,11 +86,14 @@ Status fromC(const mcc_convert_options& options, ConvertOptions& out) {
   return checkOptions(out);
 }
 
-/// Runs a conversion of `glb` into a new document. The document gets a message in any case.
-mcc_status makeDocument(const void* glb, size_t byte_count, mcc_document** document,
+/// Runs a conversion of `glb` into a new document, if the options are `checked` and ok. The
+/// document gets a message in any case.
+mcc_status makeDocument(const Status& checked, const void* glb, size_t byte_count,
+                        mcc_document** document,
                         const std::function<Result(Source, Sink)>& convert) try {
+  if (document != nullptr) *document = nullptr;
+  if (!checked.ok()) return toC(checked);
   if (document == nullptr) return badArgument("document is null");
-  *document = nullptr;
   if (glb == nullptr && byte_count != 0) return badArgument("glb is null");
   if (!canBeInMemory(glb, byte_count, 1, 1))
     return badArgument("byte_count is more than memory has");
@@ -126,11 +129,7 @@ mcc_status mcc_convert_glb(const void* glb, size_t byte_count, const mcc_convert
   mcc::Status status = mcc::readStruct(options, mcc::gltf::defaultConvertOptions(), read);
   mcc::gltf::ConvertOptions convert_options;
   if (status.ok()) status = mcc::gltf::fromC(read, convert_options);
-  if (!status.ok()) {
-    if (document != nullptr) *document = nullptr;
-    return mcc::toC(status);
-  }
-  return mcc::gltf::makeDocument(glb, byte_count, document,
+  return mcc::gltf::makeDocument(status, glb, byte_count, document,
                                  [&](const mcc::gltf::Source& source, const mcc::gltf::Sink& sink) {
                                    mcc::gltf::ConvertReport report;
                                    return mcc::gltf::convert(source, sink, convert_options, report);
@@ -148,16 +147,12 @@ mcc_status mcc_decode_glb(const void* glb, size_t byte_count, const mcc_decode_g
   if (status.ok()) status = mcc::checkFlags({read.decode_to});
   const auto glb_version = static_cast<mcc::gltf::GlbVersion>(read.glb_version);
   if (status.ok()) status = mcc::gltf::checkGlbVersion(glb_version);
-  if (!status.ok()) {
-    if (document != nullptr) *document = nullptr;
-    return mcc::toC(status);
-  }
   mcc::gltf::DecodeOptions decode_options;
   decode_options.decode_to = static_cast<mcc::gltf::DecodeTo>(read.decode_to);
   decode_options.thread_count = read.thread_count;
   decode_options.max_decoded_bytes = read.max_decoded_bytes;
   decode_options.glb_version = glb_version;
-  return mcc::gltf::makeDocument(glb, byte_count, document,
+  return mcc::gltf::makeDocument(status, glb, byte_count, document,
                                  [&](const mcc::gltf::Source& source, const mcc::gltf::Sink& sink) {
                                    mcc::gltf::DecodeReport report;
                                    return mcc::gltf::decode(source, sink, report, decode_options);
@@ -167,7 +162,8 @@ mcc_status mcc_decode_glb(const void* glb, size_t byte_count, const mcc_decode_g
 mcc_status mcc_inspect_glb(const void* glb, size_t byte_count, const char* name,
                            mcc_document** document) {
   return mcc::gltf::makeDocument(
-      glb, byte_count, document, [=](const mcc::gltf::Source& source, const mcc::gltf::Sink& sink) {
+      {}, glb, byte_count, document,
+      [=](const mcc::gltf::Source& source, const mcc::gltf::Sink& sink) {
         mcc::gltf::InspectReport report;
         mcc::gltf::Result result = mcc::gltf::inspectGlb(*source.bytes, true, report);
         if (!result.ok()) return result;

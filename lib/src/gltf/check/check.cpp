@@ -129,35 +129,33 @@ class Checker {
     };
     const bool is_same =
         primitive.indices == part.indices_accessor && primitive.mode == part.mode &&
-        primitive.attributes.size() == piece.attributes.size() + piece.ordinary.size() &&
-        primitive.target_count == piece.target_count &&
+        hasPlannedCounts(primitive, piece) &&
         std::all_of(piece.attributes.begin(), piece.attributes.end(), isAsPlanned) &&
         std::all_of(piece.ordinary.begin(), piece.ordinary.end(), isAsPlanned);
     return is_same ? Result() : error("", "does not share the accessors of its piece");
   }
 
+  static bool hasPlannedCounts(const Primitive& primitive, const PiecePlan& piece) {
+    return primitive.attributes.size() == piece.attributes.size() + piece.ordinary.size() &&
+           primitive.target_count == piece.target_count;
+  }
+
   /// Checks that each attribute of a primitive is the one of its payload, or stays next to it.
   Result checkAttributes(const PiecePlan& piece, const ExtensionUse& use) const {
-    const Primitive& primitive = written_.primitive({use.mesh, use.primitive});
-    if (primitive.attributes.size() != piece.attributes.size() + piece.ordinary.size() ||
-        primitive.target_count != piece.target_count) {
+    if (!hasPlannedCounts(written_.primitive({use.mesh, use.primitive}), piece)) {
       return error("", "has another number of attributes or morph targets");
     }
     if (use.attributes.size() != piece.attributes.size()) {
       return error("", "reads another number of attributes from its payload");
     }
-    std::vector<bool> is_read(piece.attributes.size(), false);
+    // No two have the same name, so that no attribute of the piece is left out.
     for (const ExtensionUse::AttributeUse& attribute : use.attributes) {
       const AttributePlan& planned = piece.attributes[attribute.id];
       if (attribute.name != planned.name || attribute.target != planned.target) {
         return error(attribute.path, "is the number of another attribute");
       }
-      is_read[attribute.id] = true;
     }
-    const auto missing = std::find(is_read.begin(), is_read.end(), false);
-    if (missing == is_read.end()) return {};
-    return error("", piece.attributes[static_cast<size_t>(missing - is_read.begin())].label(),
-                 " is not in the payload");
+    return {};
   }
 
   /// Checks the accessors next to the payload that belong to the vertices of a piece.

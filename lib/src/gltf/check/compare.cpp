@@ -207,33 +207,23 @@ class BytesChecker {
 
   void addImages() {
     const Json& images = arrayOf(source_.json, "images");
-    const Json& new_images = arrayOf(written_.json, "images");
+    const Json& in_written = arrayOf(written_.json, "images");
     for (size_t i = 0; i < images.size(); ++i) {
-      const Json* number = findMember(images[i], "bufferView");
-      if (number == nullptr) continue;
-      const Json* new_number = findMember(new_images[i], "bufferView");
-      addViews(number, new_number, "/images", i, "the image changed");
+      addViews(findMember(images[i], "bufferView"), findMember(in_written[i], "bufferView"),
+               "/images", i);
     }
   }
 
-  /// Adds the property tables. Their views have names of their own.
+  /// Adds the property tables, of which the JSON has the same. Their views have names of their own.
   void addTables() {
-    const auto numbersOf = [](const Document& document) {
-      std::vector<const Json*> numbers;
-      for (const std::string_view path : kTableViews) {
-        visitPath(&document.json, path, [&](const Json& number) { numbers.push_back(&number); });
-      }
-      return numbers;
-    };
-    const std::vector<const Json*> old_numbers = numbersOf(source_);
-    const std::vector<const Json*> new_numbers = numbersOf(written_);
-    if (old_numbers.size() != new_numbers.size()) {
-      return addDifference("/extensions", 0, "a property table is lost");
-    }
-    for (size_t i = 0; i < old_numbers.size(); ++i) {
-      uint64_t view = 0;
-      if (!asUnsigned(*old_numbers[i], view)) continue;
-      addViews(old_numbers[i], new_numbers[i], "/bufferViews", view, "a property table changed");
+    for (const std::string_view path : kTableViews) {
+      std::vector<const Json*> in_written;
+      visitPath(&written_.json, path, [&](const Json& number) { in_written.push_back(&number); });
+      size_t i = 0;
+      visitPath(&source_.json, path, [&](const Json& number) {
+        const Json* const now = i < in_written.size() ? in_written[i++] : nullptr;
+        addViews(&number, now, "/bufferViews", number.get<uint64_t>());
+      });
     }
   }
 
@@ -274,31 +264,27 @@ class BytesChecker {
   }
 
   /// Adds the views that two members name. A view that does not exist was wrong in the source, too.
-  void addViews(const Json* number, const Json* new_number, const char* array, uint64_t index,
-                const char* what) {
+  void addViews(const Json* number, const Json* new_number, const char* array, uint64_t index) {
     const uint32_t old_view = indexOf(number, source_.views.size());
     if (old_view == kNone) return;
     const uint32_t new_view = indexOf(new_number, written_.views.size());
-    if (new_view == kNone) return addDifference(array, index, what);
-    add(viewRange(source_, old_view), viewRange(written_, new_view), array, index, what);
+    if (new_view == kNone) return addDifference(array, index, "is lost");
+    add(viewRange(source_, old_view), viewRange(written_, new_view), array, index,
+        "the bytes changed");
   }
 
   /// Whether views that another codec compressed are described as they were.
   bool sameCodings(const Accessor& a, const Accessor& b) const {
-    if ((a.view == kNone) != (b.view == kNone)) return false;
-    bool is_same = a.view == kNone || sameCoding(a.view, b.view);
-    if (a.sparse.count != 0 && b.sparse.count != 0) {
-      is_same &= sameCoding(a.sparse.index_view, b.sparse.index_view) &&
-                 sameCoding(a.sparse.value_view, b.sparse.value_view);
-    }
-    return is_same;
-  }
-
-  bool sameCoding(uint32_t source_view, uint32_t written_view) const {
-    const ViewCoding& a = source_.views[source_view].coding;
-    const ViewCoding& b = written_.views[written_view].coding;
-    return a.extension == b.extension && a.mode == b.mode && a.filter == b.filter &&
-           a.count == b.count && a.stride == b.stride;
+    const std::vector<uint32_t> in_source = a.views();
+    const std::vector<uint32_t> in_written = b.views();
+    const auto isSame = [&](uint32_t source_view, uint32_t written_view) {
+      const ViewCoding& x = source_.views[source_view].coding;
+      const ViewCoding& y = written_.views[written_view].coding;
+      return std::tie(x.extension, x.mode, x.filter, x.count, x.stride) ==
+             std::tie(y.extension, y.mode, y.filter, y.count, y.stride);
+    };
+    return std::equal(in_source.begin(), in_source.end(), in_written.begin(), in_written.end(),
+                      isSame);
   }
 
   const Document& source_;
@@ -317,11 +303,8 @@ void addViews(const Document& source, const Touched& touched, BytesChecker& chec
   for (const uint32_t index : touched) {
     if (index >= source.accessors.size()) continue;
     const Accessor& accessor = source.accessors[index];
-    if (accessor.view != kNone) is_freed[accessor.view] = true;
+    for (const uint32_t view : accessor.views()) is_freed[view] = true;
     if (accessor.decoded_from != kNone) is_freed[accessor.decoded_from] = true;
-    if (accessor.sparse.count == 0) continue;
-    is_freed[accessor.sparse.index_view] = true;
-    is_freed[accessor.sparse.value_view] = true;
   }
   for (uint32_t view = 0; view < source.views.size(); ++view) {
     if (!is_freed[view]) checker.addView(view);

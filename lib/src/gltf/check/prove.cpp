@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "gltf/compress/quality.h"
+#include "gltf/compress/vertices.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/document/accessors.h"
 #include "host/parallel.h"
@@ -191,24 +192,6 @@ std::vector<Triangle> canonicalTriangles(std::span<const uint32_t> indices,
 
 namespace {
 
-/// The box around the positions of several pieces.
-struct Box {
-  double low[3];
-  double high[3];
-  bool is_empty = true;
-
-  void add(const Bounds& bounds) {
-    for (size_t i = 0; i < std::min<size_t>(bounds.min.size(), 3); ++i) {
-      low[i] = is_empty ? bounds.min[i] : std::min(low[i], bounds.min[i]);
-      high[i] = is_empty ? bounds.max[i] : std::max(high[i], bounds.max[i]);
-    }
-    is_empty = false;
-  }
-  double longestSide() const {
-    return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-  }
-};
-
 class Prover {
  public:
   Prover(const Document& source, EncodedPayload& payload, PayloadProof& proof)
@@ -250,7 +233,9 @@ class Prover {
     PieceBounds& bounds = payload_.bounds.emplace_back();
     std::vector<uint32_t> source_of = payload_.result.pieces[number].source_wedge;
     MCC_GLTF_TRY(checkBijection(source_of, piece.wedge_count));
-    if (payload_.plan.keep_vertex_order) MCC_GLTF_TRY(checkIdentity(source_of));
+    if (payload_.plan.keep_vertex_order && !isIdentity(source_of)) {
+      return error("", "the order of vertices differs");
+    }
     // If the triangles are then the same, no vertex that they use was dropped.
     for (uint32_t& wedge : source_of) {
       if (!piece.kept.empty()) wedge = piece.kept[wedge];
@@ -283,13 +268,6 @@ class Prover {
         return error("", "the vertex permutation is not a permutation");
       }
       is_seen[wedge] = true;
-    }
-    return {};
-  }
-
-  static Result checkIdentity(const std::vector<uint32_t>& source_of) {
-    for (uint32_t i = 0; i < source_of.size(); ++i) {
-      if (source_of[i] != i) return error("", "the order of vertices differs");
     }
     return {};
   }
@@ -408,7 +386,7 @@ class Prover {
   PayloadProof& proof_;
   DecodedPayload decoded_;
   std::vector<std::vector<float>> angles_;  ///< per row
-  std::vector<Box> boxes_;                  ///< of the positions, per row
+  std::vector<Bounds> boxes_;               ///< of the positions, per row
   std::map<std::tuple<uint32_t, std::string, AttributeCoding, uint8_t>, size_t> row_of_;
 };
 

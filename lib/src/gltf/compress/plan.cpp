@@ -154,12 +154,8 @@ class Planner {
     const Accessor& accessor = document_.accessors[index];
     if (accessor.is_filled) return "is in the payload of another primitive";
     std::string unknown = unknownExtension(accessors_[index]);
-    for (const uint32_t view :
-         {accessor.view, accessor.sparse.index_view, accessor.sparse.value_view}) {
-      const bool is_used = view != kNone && (view == accessor.view || accessor.sparse.count != 0);
-      if (is_used && unknown.empty()) {
-        unknown = unknownExtension(views_[view]);
-      }
+    for (const uint32_t view : accessor.views()) {
+      if (unknown.empty()) unknown = unknownExtension(views_[view]);
     }
     return unknown.empty() ? whyUnreadable(document_, accessor)
                            : "has the unknown extension " + nameInNote(unknown);

@@ -301,11 +301,7 @@ Result decodeViews(const ForeignDecoders& decoders, Document& document, const Do
   };
   for (size_t i = 0; i < is_used.size(); ++i) {
     if (!is_used[i]) continue;
-    const Accessor& accessor = document.accessors[i];
-    if (accessor.view != kNone) MCC_GLTF_TRY(decode(accessor.view));
-    if (accessor.sparse.count == 0) continue;
-    MCC_GLTF_TRY(decode(accessor.sparse.index_view));
-    MCC_GLTF_TRY(decode(accessor.sparse.value_view));
+    for (const uint32_t view : document.accessors[i].views()) MCC_GLTF_TRY(decode(view));
   }
   return {};
 }

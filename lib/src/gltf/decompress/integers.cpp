@@ -501,20 +501,15 @@ class PositionStore {
 
   /// Redirects animations of the weights of morph targets to the new node of the mesh.
   void moveWeightChannels() {
-    if (child_of_node_.empty() || json_.find("animations") == json_.end()) return;
-    for (Json& animation : json_["animations"]) {
-      if (arrayOf(animation, "channels").empty()) continue;
-      for (Json& channel : animation["channels"]) {
-        uint64_t node = 0;
-        const Json* target = findMember(channel, "target");
-        const Json* path = target == nullptr ? nullptr : findMember(*target, "path");
-        const Json* number = target == nullptr ? nullptr : findMember(*target, "node");
-        if (path == nullptr || *path != "weights" || number == nullptr) continue;
-        if (!asUnsigned(*number, node)) continue;
-        const auto moved = child_of_node_.find(node);
-        if (moved != child_of_node_.end()) channel["target"]["node"] = moved->second;
-      }
-    }
+    if (child_of_node_.empty()) return;
+    visitPath(&json_, "animations/[]/channels/[]/target", [&](Json& target) {
+      uint64_t node = 0;
+      const Json* path = findMember(target, "path");
+      if (path == nullptr || *path != "weights" || !asUnsigned(findMember(target, "node"), node))
+        return;
+      const auto moved = child_of_node_.find(node);
+      if (moved != child_of_node_.end()) target["node"] = moved->second;
+    });
   }
 
   /// Returns the matrices of a skin, identities when it names none, or nothing when they are

@@ -94,20 +94,13 @@ uint64_t AccessorData::firstDifference(const AccessorData& other) const {
 std::string whyUnreadable(const Document& document, const Accessor& accessor) {
   if (!accessor.fault.ok()) return "cannot be read (" + accessor.fault.message() + ")";
   if (!accessor.is_known_type) return "the type or component type is unknown";
-  const auto is_sealed = [&](uint32_t view) {
-    return document.views[view].isCoded() && document.views[view].coding.decoded == kNone;
-  };
-  std::vector<uint32_t> views;
-  if (accessor.view != kNone) views.push_back(accessor.view);
-  if (accessor.sparse.count != 0) {
-    views.insert(views.end(), {accessor.sparse.index_view, accessor.sparse.value_view});
+  for (const uint32_t number : accessor.views()) {
+    const BufferView& view = document.views[number];
+    if (!view.isCoded() || view.coding.decoded != kNone) continue;
+    if (!view.fault.ok()) return "cannot be read (" + view.fault.message() + ")";
+    return "is coded with " + view.coding.extension + ", which this program cannot read";
   }
-  const auto sealed = std::find_if(views.begin(), views.end(), is_sealed);
-  if (sealed == views.end()) return "";
-  const Result& fault = document.views[*sealed].fault;
-  if (!fault.ok()) return "cannot be read (" + fault.message() + ")";
-  return "is coded with " + document.views[*sealed].coding.extension +
-         ", which this program cannot read";
+  return "";
 }
 
 void readElements(const Accessor& accessor, const uint8_t* bytes, uint64_t stride_bytes,
@@ -279,6 +272,20 @@ Json boundNumbers(const std::vector<double>& values, ComponentType type) {
     }
   }
   return numbers;
+}
+
+void Bounds::add(const Bounds& other) {
+  if (min.empty()) *this = other;
+  for (size_t i = 0; i < min.size(); ++i) {
+    min[i] = std::min(min[i], other.min[i]);
+    max[i] = std::max(max[i], other.max[i]);
+  }
+}
+
+double Bounds::longestSide() const {
+  double longest = max[0] - min[0];
+  for (size_t i = 1; i < min.size(); ++i) longest = std::max(longest, max[i] - min[i]);
+  return longest;
 }
 
 Bounds boundsOf(const AccessorData& elements, ComponentType type) {

@@ -99,6 +99,11 @@ struct Bounds {
   std::vector<double> min;
   std::vector<double> max;
   bool is_finite = true;  ///< all values are finite, so that JSON can represent the bounds
+
+  /// Extends these bounds by others, of as many components; none are extended to any.
+  void add(const Bounds& other);
+  /// Returns the largest difference between the two bounds of a component.
+  double longestSide() const;
 };
 
 Bounds boundsOf(const AccessorData& elements, ComponentType type);

@@ -639,6 +639,13 @@ Result embedImage(const FileReader& read_file, size_t index,
 
 }  // namespace
 
+std::vector<uint32_t> Accessor::views() const {
+  std::vector<uint32_t> views;
+  if (view != kNone) views.push_back(view);
+  if (sparse.count != 0) views.insert(views.end(), {sparse.index_view, sparse.value_view});
+  return views;
+}
+
 DecodedBytes::DecodedBytes(uint64_t max_decoded_bytes, uint64_t file_bytes)
     : limit_(decodedLimit(max_decoded_bytes, file_bytes)), file_bytes_(file_bytes) {}
 

@@ -99,6 +99,8 @@ struct Accessor {
   bool is_in_scene = false;     ///< a skin, an animation or instances of a node
   bool is_foreign = false;      ///< perhaps something that we do not understand
 
+  /// Returns the buffer views that it reads, of which there may be none.
+  std::vector<uint32_t> views() const;
   bool isUsedOutsideMeshes() const { return is_in_scene || is_foreign; }
   uint32_t componentCount() const { return columns * rows; }
   uint32_t tightBytes() const { return componentCount() * componentBytes(component_type); }

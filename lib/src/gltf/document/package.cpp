@@ -192,12 +192,6 @@ std::string withoutDots(const std::string& path) {
   return joined;
 }
 
-bool isVisiblePath(const std::string& path) {
-  return allParts(path, [](std::string_view part) {
-    return !part.starts_with('.') || part == "." || part == "..";
-  });
-}
-
 bool isPathOnWindows(const std::string& path) {
   if (!isUtf8(path)) return false;  // names are made of characters there
   return allParts(path, [](std::string_view part) {
@@ -220,12 +214,6 @@ std::string uriOf(const std::string& name) {
     }
   }
   return uri;
-}
-
-bool isUsableName(const std::string& name) {
-  std::string path;
-  if (!relativePathOf(uriOf(name), "", path).ok()) return false;
-  return path == name || path == "./" + name;  // false when the name has a backslash
 }
 
 namespace {
@@ -253,6 +241,14 @@ std::string endingOf(const std::string& file_name) {
   std::string extension = file_name.substr(dot);
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return extension;
+}
+
+/// Whether no part of a relative path begins with a dot, as the names of hidden files and folders
+/// do.
+bool isVisiblePath(const std::string& path) {
+  return allParts(path, [](std::string_view part) {
+    return !part.starts_with('.') || part == "." || part == "..";
+  });
 }
 
 Result readCopy(bool is_image, const FileReader& read_file, const std::string& where,
@@ -283,7 +279,10 @@ Result containerOf(const std::string& file_name, Container& container) {
 }
 
 Result checkName(const std::string& name, const std::string& where) {
-  if (isUsableName(name)) return {};
+  std::string path;
+  const bool is_path = relativePathOf(uriOf(name), "", path).ok();
+  // They differ when the name has a backslash.
+  if (is_path && (path == name || path == "./" + name)) return {};
   return error(where, "no URI can name a file \"", name, "\"; choose another name");
 }
 

@@ -30,10 +30,6 @@ Result relativePathOf(const std::string& uri, const std::string& where, std::str
 /// Returns a path that relativePathOf() has accepted without its parts "." and "..".
 std::string withoutDots(const std::string& path);
 
-/// Whether no part of a relative path begins with a dot, as the names of hidden files and folders
-/// do.
-bool isVisiblePath(const std::string& path);
-
 /// Whether every part of a relative path is the name of a file on Windows. There "NUL", "com1.bin"
 /// and "CON .png" are devices in every folder, "a.bin:b" is a hidden stream of "a.bin", dots and
 /// spaces at the end of a name are dropped, and bytes that are not UTF-8 name nothing.
@@ -49,9 +45,6 @@ inline constexpr bool kIsWindows = false;
 /// Returns the percent-encoded URI of a file next to the model, from which relativePathOf() returns
 /// the file.
 std::string uriOf(const std::string& name);
-
-/// Whether a URI can name a file of this name.
-bool isUsableName(const std::string& name);
 
 /// A file next to the main one, whose JSON names it.
 struct SideFile {

@@ -95,13 +95,6 @@ Result readWhole(int file, uint64_t size, const std::string& name, std::vector<u
   return {};
 }
 
-Result readRegularFile(int file, const fs::path& path, std::vector<uint8_t>& bytes) {
-  std::error_code code;
-  const uintmax_t size = fs::file_size(path, code);
-  if (code) return error(textOf(path), "cannot be read: ", code.message());
-  return readWhole(file, size, textOf(path), bytes);
-}
-
 }  // namespace
 
 fs::path folderOf(const fs::path& path) {
@@ -136,8 +129,9 @@ Result readFile(const fs::path& path, std::vector<uint8_t>& bytes) {
   if (fs::is_directory(status)) return error(textOf(path), "is a folder; name a file in it");
   const int file = system::openToRead(path);
   if (file < 0) return error(textOf(path), "cannot be opened: ", reasonOf(errno));
-  Result result = fs::is_regular_file(status) ? readRegularFile(file, path, bytes)
-                                              : readStream(file, textOf(path), bytes);
+  const std::optional<uint64_t> size = system::sizeOfRegular(file);
+  Result result =
+      size ? readWhole(file, *size, textOf(path), bytes) : readStream(file, textOf(path), bytes);
   system::close(file);
   return result;
 }
