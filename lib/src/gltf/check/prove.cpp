@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 
 #include "gltf/compress/quality.h"
@@ -332,30 +333,23 @@ class Prover {
                          report, angles_[row]);
   }
 
-  /// Reads the source's triangles again, instead of taking them from the plan.
-  Result sourceTriangles(const PrimitiveRef& ref, uint64_t vertex_count,
-                         std::vector<uint32_t>& indices) const {
-    const Primitive& primitive = source_.primitive(ref);
-    if (primitive.indices != kNone) {
-      MCC_GLTF_TRY(readIndices(source_, primitive.indices, indices));
-    } else {
-      for (uint32_t i = 0; i < vertex_count; ++i) indices.push_back(i);
-    }
-    if (!expandTriangles(primitive.mode, indices)) return error("", "the source has no triangles");
-    return {};
-  }
-
-  /// Returns what a part has to be. The source has no triangles of a preview, only its vertices.
+  /// Returns what a part has to be. Reads the source's triangles again, instead of taking them from
+  /// the plan; of a preview, the source has only the vertices.
   Result expectedTriangles(const PiecePlan& piece, const PartPlan& part,
                            std::vector<uint32_t>& expected) const {
     if (payload_.plan.is_preview) {
       for (const uint32_t vertex : part.triangles) expected.push_back(piece.kept[vertex]);
       return {};
     }
-    const uint64_t source_count = piece.kept.empty()
-                                      ? piece.wedge_count
-                                      : source_.accessors[piece.attributes[0].accessor].count;
-    return sourceTriangles(part.users[0], source_count, expected);
+    const Primitive& primitive = source_.primitive(part.users[0]);
+    if (primitive.indices != kNone) {
+      MCC_GLTF_TRY(readIndices(source_, primitive.indices, expected));
+    } else {
+      expected.resize(source_.accessors[primitive.attributes[0].accessor].count);
+      std::iota(expected.begin(), expected.end(), 0u);
+    }
+    return expandTriangles(primitive.mode, expected) ? Result()
+                                                     : error("", "the source has no triangles");
   }
 
   Result provePart(const PiecePlan& piece, const PartPlan& part, std::span<const uint32_t> indices,

@@ -8,6 +8,7 @@
 #include <set>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "base/crc32.h"
 #include "gltf/document/references.h"
@@ -370,10 +371,6 @@ class Planner {
 
 }  // namespace
 
-std::string AttributePlan::label() const {
-  return target == kNone ? name : "target " + std::to_string(target) + " " + name;
-}
-
 AttributeView AttributePlan::view() const {
   AttributeView view;
   view.format = format;
@@ -445,19 +442,16 @@ bool mayHaveBlocks(const ConvertOptions& options, const PayloadPlan& payload,
 void splitPayloads(const ConvertOptions& options, std::vector<PayloadPlan>& payloads) {
   std::vector<PayloadPlan> split;
   for (PayloadPlan& payload : payloads) {
+    std::vector<PiecePlan> pieces = std::exchange(payload.pieces, {});
     PayloadCounts counts;
     bool is_open = false;
-    for (PiecePlan& piece : payload.pieces) {
+    for (PiecePlan& piece : pieces) {
       const bool is_alone = mayHaveBlocks(options, payload, piece);
       counts.add(piece);
       if (!is_open || is_alone || !counts.isAccepted()) {
         counts = {};
         counts.add(piece);
-        PayloadPlan& next = split.emplace_back();
-        next.mesh = payload.mesh;
-        next.keep_vertex_order = payload.keep_vertex_order;
-        next.keep_triangle_order = payload.keep_triangle_order;
-        next.indices_only = payload.indices_only;
+        split.push_back(payload);
       }
       is_open = !is_alone;
       // Attributes inside the payload and next to it must have the same order.

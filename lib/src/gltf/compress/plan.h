@@ -31,8 +31,7 @@ struct AttributePlan {
   /// of one.
   bool is_rounded_with_others = false;
 
-  /// Returns "POSITION" or "target 2 POSITION".
-  std::string label() const;
+  std::string label() const { return attributeLabel(name, target); }
   /// Returns what the writer is given. It refers to the source and to `lattice`.
   AttributeView view() const;
 };

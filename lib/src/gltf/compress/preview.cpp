@@ -171,12 +171,6 @@ class Clusters {
   std::vector<uint32_t> cell_of_;  ///< of each vertex
 };
 
-Result simplifyByCells(const TriangleList& list, uint64_t triangle_count,
-                       std::vector<uint32_t>& simplified) {
-  simplified = Clusters(list).simplify(triangle_count);
-  return {};
-}
-
 /// Simplifies the parts of one piece.
 class PieceSimplifier {
  public:
@@ -228,8 +222,12 @@ class PieceSimplifier {
       return {};
     }
     const TriangleList list = {positions, whole.triangles};
-    const Result result = options_.simplify ? options_.simplify(list, wanted, triangles)
-                                            : simplifyByCells(list, wanted, triangles);
+    Result result;
+    if (options_.simplify) {
+      result = options_.simplify(list, wanted, triangles);
+    } else {
+      triangles = Clusters(list).simplify(wanted);
+    }
     if (!result.ok()) {
       triangles.clear();
       leaveOut(part, result.what);

@@ -187,7 +187,7 @@ void leaveAlone(const PiecePlan& piece, uint64_t cost_bytes, uint64_t freed_byte
 class LoserSearch {
  public:
   LoserSearch(const Document& document, const std::vector<EncodedPayload>& payloads)
-      : payloads_(payloads), owners_(group(document)) {}
+      : payloads_(payloads), is_lost_(payloads.size(), false), owners_(group(document)) {}
 
   /// Returns for each payload whether it loses.
   std::vector<bool> run(std::vector<LeftAlone>& left_alone) {
@@ -197,12 +197,10 @@ class LoserSearch {
     while (!asked.empty()) {
       std::vector<size_t> losers;
       for (const size_t number : asked) {
-        if (!groups_[number].is_lost && groups_[number].cost >= owners_.freed()[number]) {
-          losers.push_back(number);
-          groups_[number].is_lost = true;
-        }
+        if (groups_[number].is_lost || groups_[number].cost < owners_.freed()[number]) continue;
+        leaveGroupAlone(number, left_alone);
+        losers.push_back(number);
       }
-      for (const size_t number : losers) leaveGroupAlone(number, left_alone);
       asked.clear();
       for (const size_t number : losers) owners_.leave(number, asked);
     }
@@ -211,13 +209,9 @@ class LoserSearch {
     // Payloads that share accessors may each gain by the same bytes, and still lose together.
     const bool all_lose = total_cost >= owners_.total();
     for (size_t number = 0; all_lose && number < groups_.size(); ++number) {
-      if (groups_[number].is_lost) continue;
-      groups_[number].is_lost = true;
-      leaveGroupAlone(number, left_alone);
+      if (!groups_[number].is_lost) leaveGroupAlone(number, left_alone);
     }
-    std::vector<bool> is_lost;
-    for (const size_t number : group_of_) is_lost.push_back(groups_[number].is_lost);
-    return is_lost;
+    return std::move(is_lost_);
   }
 
  private:
@@ -235,15 +229,16 @@ class LoserSearch {
       if (i == 0 || payloads_[i - 1].plan.mesh != plan.mesh) groups_.emplace_back();
       groups_.back().payloads.push_back(i);
       groups_.back().cost += costOf(payloads_[i]);
-      group_of_.push_back(groups_.size() - 1);
-      for (const PiecePlan& piece : plan.pieces) pieces.push_back({&piece, group_of_.back()});
+      for (const PiecePlan& piece : plan.pieces) pieces.push_back({&piece, groups_.size() - 1});
     }
     return ownersOf(document, accessorsInOtherUse(document, plansOf(payloads_)), pieces,
                     groups_.size());
   }
 
-  void leaveGroupAlone(size_t number, std::vector<LeftAlone>& left_alone) const {
+  void leaveGroupAlone(size_t number, std::vector<LeftAlone>& left_alone) {
+    groups_[number].is_lost = true;
     for (const size_t i : groups_[number].payloads) {
+      is_lost_[i] = true;
       for (const PiecePlan& piece : payloads_[i].plan.pieces) {
         leaveAlone(piece, groups_[number].cost, owners_.freed()[number], left_alone);
       }
@@ -252,7 +247,7 @@ class LoserSearch {
 
   const std::vector<EncodedPayload>& payloads_;
   std::vector<Group> groups_;
-  std::vector<size_t> group_of_;  ///< group of each payload
+  std::vector<bool> is_lost_;  ///< of each payload
   ByteOwners owners_;
 };
 
@@ -336,15 +331,13 @@ Result dropTinyPieces(const Document& document, const ConvertOptions& options,
       ++next;
     }
     const std::vector<bool> touches = touchingPieces(plan, is_tiny);
-    std::vector<bool> is_dropped;
-    for (size_t i = 0; i < plan.pieces.size(); ++i) {
-      is_dropped.push_back(is_tiny[i] && !touches[i]);
-      if (!is_dropped.back()) continue;
-      leaveAlone(plan.pieces[i], costs[i], freed[first + i], left_alone);
-    }
     std::vector<PiecePlan> kept;
     for (size_t i = 0; i < plan.pieces.size(); ++i) {
-      if (!is_dropped[i]) kept.push_back(std::move(plan.pieces[i]));
+      if (is_tiny[i] && !touches[i]) {
+        leaveAlone(plan.pieces[i], costs[i], freed[first + i], left_alone);
+      } else {
+        kept.push_back(std::move(plan.pieces[i]));
+      }
     }
     plan.pieces = std::move(kept);
   }
@@ -354,8 +347,7 @@ Result dropTinyPieces(const Document& document, const ConvertOptions& options,
 
 void dropLosers(const Document& document, std::vector<EncodedPayload>& payloads,
                 std::vector<LeftAlone>& left_alone) {
-  LoserSearch search(document, payloads);
-  const std::vector<bool> is_lost = search.run(left_alone);
+  const std::vector<bool> is_lost = LoserSearch(document, payloads).run(left_alone);
   std::vector<EncodedPayload> winners;
   for (size_t i = 0; i < payloads.size(); ++i) {
     if (!is_lost[i]) winners.push_back(std::move(payloads[i]));

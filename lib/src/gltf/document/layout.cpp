@@ -17,16 +17,6 @@ struct Block {
   uint64_t target = 0;  ///< where it begins in the new buffer
 };
 
-/// Calls visit(uint32_t view, uint32_t accessor) for the references in `json` to views of the
-/// document.
-template <typename Visit>
-void visitOldViews(const Document& document, const Json& json, const Visit& visit) {
-  visitViewReferences(json, [&](const Json& number, uint32_t accessor) {
-    const uint32_t view = indexOf(&number, document.views.size());
-    if (view != kNone) visit(view, accessor);
-  });
-}
-
 class LayoutBuilder {
  public:
   LayoutBuilder(const Document& document, std::span<const NewView> new_views, Json& json)
@@ -34,11 +24,11 @@ class LayoutBuilder {
         new_views_(new_views),
         json_(json),
         ranges_(document.views.size()),
+        kept_(document.views.size()),
         is_whole_(document.views.size(), false) {}
 
   Layout run() {
     findLiveViews();
-    findKeptRanges();
     layout_.offsets.resize(new_views_.size());
     placeNewViews(true);
     placeBlocks();
@@ -54,9 +44,17 @@ class LayoutBuilder {
   /// Whether the bytes of a view are in none of the files.
   bool isMissing(size_t view) const { return document_.isMissing(document_.views[view].buffer); }
 
+  void keep(uint32_t view, const ByteRange& range) {
+    ByteRange& kept = kept_[view];
+    if (ranges_[view].empty()) kept = range;
+    kept.begin = std::min(kept.begin, range.begin);
+    kept.end = std::max(kept.end, range.end);
+    ranges_[view].push_back(range);
+  }
+
   void keepWhole(uint32_t view) {
     is_whole_[view] = true;
-    ranges_[view].push_back(viewRange(document_, view));
+    keep(view, viewRange(document_, view));
   }
 
   void findLiveViews() {
@@ -66,7 +64,9 @@ class LayoutBuilder {
       if (use == ViewUse::kUnknown || stays_free) keepWhole(view);
     }
     std::vector<bool> is_referred(document_.views.size(), false);
-    visitOldViews(document_, json_, [&](uint32_t view, uint32_t accessor) {
+    visitViewReferences(std::as_const(json_), [&](const Json& number, uint32_t accessor) {
+      const uint32_t view = indexOf(&number, document_.views.size());
+      if (view == kNone) return;
       is_referred[view] = true;
       const bool is_old = accessor < document_.accessors.size();
       if (!is_old || document_.foreign.keep_numbers || document_.views[view].isCoded() ||
@@ -79,7 +79,7 @@ class LayoutBuilder {
       for (const ByteRange& range : accessorRanges(document_, accessor, false)) {
         const bool is_inside =
             range.buffer == whole.buffer && range.begin >= whole.begin && range.end <= whole.end;
-        if (is_inside) ranges_[view].push_back(range);
+        if (is_inside) keep(view, range);
       }
     });
     // An accessor that uses none of its bytes, such as a sparse one of 0 elements, still needs its
@@ -150,20 +150,6 @@ class LayoutBuilder {
     return block.target + (offset - block.source.begin);
   }
 
-  /// Finds what is kept of each view, in source bytes: the hull of its ranges.
-  void findKeptRanges() {
-    kept_.resize(ranges_.size());
-    for (size_t view = 0; view < ranges_.size(); ++view) {
-      if (ranges_[view].empty()) continue;
-      ByteRange& kept = kept_[view];
-      kept = ranges_[view].front();
-      for (const ByteRange& range : ranges_[view]) {
-        kept.begin = std::min(kept.begin, range.begin);
-        kept.end = std::max(kept.end, range.end);
-      }
-    }
-  }
-
   void moveOffset(Json& object, uint64_t old_offset) {
     const uint32_t view = indexOf(findMember(object, "bufferView"), document_.views.size());
     if (view == kNone || ranges_[view].empty() || is_whole_[view]) return;
@@ -192,12 +178,9 @@ class LayoutBuilder {
     numbers_.assign(old_count + new_views_.size(), kNone);
     std::vector<uint32_t> free_numbers;
     for (uint32_t view = 0; view < old_count; ++view) {
-      if (!ranges_[view].empty() && !document_.foreign.keep_numbers) {
-        numbers_[view] = view_count_++;
-      } else if (document_.foreign.keep_numbers) {
-        numbers_[view] = view_count_++;
-        if (ranges_[view].empty()) free_numbers.push_back(view);
-      }
+      const bool is_kept = !ranges_[view].empty();
+      if (is_kept || document_.foreign.keep_numbers) numbers_[view] = view_count_++;
+      if (!is_kept && document_.foreign.keep_numbers) free_numbers.push_back(view);
     }
     for (size_t k = 0; k < new_views_.size(); ++k) {
       numbers_[old_count + k] = k < free_numbers.size() ? free_numbers[k] : view_count_++;
@@ -230,12 +213,12 @@ class LayoutBuilder {
     view["byteLength"] = length;
   }
 
-  /// A coded view keeps its coded bytes. Its own range lies in a placeholder buffer without bytes.
-  void setCodedRange(Json& view, const ViewCoding& coding, uint64_t offset, uint64_t length) {
-    setRange(view["extensions"][coding.extension], offset, length);
-    setPlaceholder(view, coding);
+  /// Returns what says where the bytes of a view are: the object that codes it, or the view itself.
+  static Json& placeOf(Json& view, const ViewCoding& coding) {
+    return coding.extension.empty() ? view : view["extensions"][coding.extension];
   }
 
+  /// The own range of a coded view lies in a placeholder buffer without bytes.
   void setPlaceholder(Json& view, const ViewCoding& coding) {
     view["buffer"] = 1;
     view["byteOffset"] = placeholder_bytes_;
@@ -252,27 +235,24 @@ class LayoutBuilder {
       if (numbers_[view] == kNone) continue;
       Json& json = views[numbers_[view]];
       json = old_views[view];
-      if (isMissing(view) && !ranges_[view].empty()) {
-        // It keeps its place in its buffer, whose number is not known yet.
-        if (document_.views[view].isCoded()) setPlaceholder(json, document_.views[view].coding);
-        missing_views_.push_back(view);
-      } else if (!ranges_[view].empty()) {
-        const ByteRange kept = kept_[view];
-        const uint64_t offset = moved(kept.buffer, kept.begin);
-        const uint64_t length =
-            kept.end == kept.begin ? 0 : moved(kept.buffer, kept.end - 1) + 1 - offset;
-        const ViewCoding& coding = document_.views[view].coding;
-        if (coding.extension.empty()) {
-          setRange(json, offset, length);
-        } else {
-          setCodedRange(json, coding, offset, length);
-        }
-      } else {  // a number that must stay in use; see ViewUse::kFree
+      if (ranges_[view].empty()) {  // a number that must stay in use; see ViewUse::kFree
         eraseViewExtensions(json);
         json.erase("byteStride");
         json.erase("target");
         setRange(json, first_new, 1);
+        continue;
       }
+      const ViewCoding& coding = document_.views[view].coding;
+      if (isMissing(view)) {
+        // It keeps its place in its buffer, whose number is not known yet.
+        missing_views_.push_back(view);
+      } else {
+        const auto [buffer, begin, end] = kept_[view];
+        const uint64_t offset = moved(buffer, begin);
+        const uint64_t length = end == begin ? 0 : moved(buffer, end - 1) + 1 - offset;
+        setRange(placeOf(json, coding), offset, length);
+      }
+      if (!coding.extension.empty()) setPlaceholder(json, coding);
     }
     for (size_t k = 0; k < new_views_.size(); ++k) {
       views[numbers_[old_count + k]] = new_views_[k].json(0, layout_.offsets[k]);
@@ -333,9 +313,7 @@ class LayoutBuilder {
     Json& views = json_["bufferViews"];
     for (const uint32_t view : missing_views_) {
       const BufferView& from = document_.views[view];
-      Json& json = views[numbers_[view]];
-      Json& place = from.isCoded() ? json["extensions"][from.coding.extension] : json;
-      place["buffer"] = numbers[from.buffer];
+      placeOf(views[numbers_[view]], from.coding)["buffer"] = numbers[from.buffer];
     }
   }
 

@@ -27,6 +27,12 @@ struct PrimitiveRef {
   auto operator<=>(const PrimitiveRef&) const = default;
 };
 
+/// Returns the name of an attribute of a mesh or of one of its morph targets for messages:
+/// "POSITION" or "target 2 POSITION".
+inline std::string attributeLabel(const std::string& name, uint32_t target) {
+  return target == kNone ? name : sentence("target ", target, " ", name);
+}
+
 /// Returns the member of an object that may be null. `J` is Json or const Json.
 template <typename J>
 J* member(J* json, std::string_view key) {

@@ -387,10 +387,6 @@ namespace {
 
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
-std::string primitiveLabel(const ExtensionUse::AttributeUse& use) {
-  return use.target == kNone ? use.name : "target " + std::to_string(use.target) + " " + use.name;
-}
-
 /// Derives the errors of an attribute from its coding.
 void describeErrors(AttributeInfos attributes, uint32_t index, InspectAttribute& details) {
   const AttributeInfo& info = attributes[index];
@@ -489,7 +485,8 @@ void nameUses(const PayloadUse& payload, InspectPayload& report) {
   const auto name = [&](const ExtensionUse& use, uint64_t piece) {
     report.primitives.push_back(primitivePath(use.mesh, use.primitive));
     for (const auto& attribute : use.attributes) {
-      report.pieces[piece].details[attribute.id].name = primitiveLabel(attribute);
+      report.pieces[piece].details[attribute.id].name =
+          attributeLabel(attribute.name, attribute.target);
     }
   };
   for (const ExtensionUse* use : payload.users) name(*use, use->piece);
