@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <initializer_list>
 #include <memory>
 #include <set>
 
@@ -85,17 +86,17 @@ struct Output {
 
   Result open(const ListedSink& listed, bool with_fallback, GlbVersion glb_version) {
     const Sink& sink = listed.sink;
-    container.glb_version = static_cast<uint32_t>(glb_version);
     bytes = sink.bytes;
     files = listed.files;
     if (files != nullptr) *files = {};
     if (bytes != nullptr && with_fallback) {
       return error("", "a fallback is a second file; name a file for the output");
     }
-    if (bytes != nullptr) return {};
-    destination = std::make_unique<Destination>(sink.path, listed.temporaries);
-    MCC_GLTF_TRY(destination->check(with_fallback));
-    container = destination->container();
+    if (bytes == nullptr) {
+      destination = std::make_unique<Destination>(sink.path, listed.temporaries);
+      MCC_GLTF_TRY(destination->check(with_fallback));
+      container = destination->container();
+    }
     container.glb_version = static_cast<uint32_t>(glb_version);
     return {};
   }
@@ -392,9 +393,10 @@ Result inInput(const Input& input, Result result) {
   return input.path.empty() ? result : inFile(input.path, std::move(result));
 }
 
-/// Whether bits are 0 or in a range.
-bool areBits(uint8_t bits, uint32_t from, uint32_t to) {
-  return bits == 0 || (bits >= from && bits <= to);
+/// Whether all of these bits are 0 or in a range.
+bool areBits(std::initializer_list<uint8_t> all, uint32_t from, uint32_t to) {
+  return std::all_of(all.begin(), all.end(),
+                     [&](uint8_t bits) { return bits == 0 || (bits >= from && bits <= to); });
 }
 
 /// Whether a number is a power of two that float32 holds with all its bits.
@@ -416,19 +418,6 @@ Status checkGlbVersion(GlbVersion version) {
 
 Status checkOptions(const ConvertOptions& options) {
   if (const Status checked = checkGlbVersion(options.glb_version); !checked.ok()) return checked;
-  const QuantizationBits& bits = options;
-  for (const uint8_t number :
-       {bits.position_bits, bits.texcoord_bits, bits.color_bits, bits.weight_bits}) {
-    if (!areBits(number, 1, kMaxLatticeBits)) {
-      return fail(Error::kBadArgument,
-                  "the bits of positions, texture coordinates, colours and weights are 0 to 24");
-    }
-  }
-  for (const uint8_t number : {bits.normal_bits, bits.tangent_bits}) {
-    if (!areBits(number, kMinUnitBits, kMaxUnitBits)) {
-      return fail(Error::kBadArgument, "the bits of normals and tangents are 0, or 2 to 16");
-    }
-  }
   const bool has_error = options.max_position_error > 0;
   const bool has_lattice = options.position_lattice.has_value();
   const bool is_precise = options.lossless || has_error || has_lattice;
@@ -436,6 +425,12 @@ Status checkOptions(const ConvertOptions& options) {
     bool is_refused;
     const char* why;
   } rules[] = {
+      {!areBits(
+           {options.position_bits, options.texcoord_bits, options.color_bits, options.weight_bits},
+           1, kMaxLatticeBits),
+       "the bits of positions, texture coordinates, colours and weights are 0 to 24"},
+      {!areBits({options.normal_bits, options.tangent_bits}, kMinUnitBits, kMaxUnitBits),
+       "the bits of normals and tangents are 0, or 2 to 16"},
       {options.grid > Grid::kPrimitive, "grid is not one of the grids"},
       {options.prefer > Preference::kSpeed, "prefer is not one of the preferences"},
       {!(options.max_position_error >= 0) || !std::isfinite(options.max_position_error),

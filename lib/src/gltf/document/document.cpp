@@ -285,15 +285,16 @@ Result checkRange(const Document& document, uint32_t view, uint64_t offset, uint
   return error(path, "needs ", end, " bytes of bufferView ", view, ", which has ", available);
 }
 
-Result readViewIndex(const Document& document, const Json& json, const std::string& path,
-                     uint32_t& view) {
+/// Reads which view has some elements, and where they begin in it.
+Result readPlace(const Document& document, const Json& json, const std::string& path,
+                 uint32_t& view, uint64_t& offset) {
   uint64_t index = 0;
   MCC_GLTF_TRY(readUnsigned(json, "bufferView", path, kMaxCount, index));
   if (index >= document.views.size()) {
     return error(path + "/bufferView", "there is no bufferView ", index);
   }
   view = static_cast<uint32_t>(index);
-  return {};
+  return readOptionalUnsigned(json, "byteOffset", path, kMaxCount, offset);
 }
 
 Result parseSparse(const Document& document, const Json& json, const std::string& path,
@@ -309,12 +310,10 @@ Result parseSparse(const Document& document, const Json& json, const std::string
   if (!componentTypeOf(gl_type, sparse.index_type) || (gl_type & 1) == 0) {
     return error(path + "/indices/componentType", gl_type, " is not an index type");
   }
-  MCC_GLTF_TRY(readViewIndex(document, *indices, path + "/indices", sparse.index_view));
-  MCC_GLTF_TRY(readOptionalUnsigned(*indices, "byteOffset", path + "/indices", kMaxCount,
-                                    sparse.index_offset));
-  MCC_GLTF_TRY(readViewIndex(document, *values, path + "/values", sparse.value_view));
-  MCC_GLTF_TRY(readOptionalUnsigned(*values, "byteOffset", path + "/values", kMaxCount,
-                                    sparse.value_offset));
+  MCC_GLTF_TRY(
+      readPlace(document, *indices, path + "/indices", sparse.index_view, sparse.index_offset));
+  MCC_GLTF_TRY(
+      readPlace(document, *values, path + "/values", sparse.value_view, sparse.value_offset));
   MCC_GLTF_TRY(checkRange(document, sparse.index_view, sparse.index_offset,
                           count * componentBytes(sparse.index_type), path + "/indices"));
   MCC_GLTF_TRY(checkRange(document, sparse.value_view, sparse.value_offset,
@@ -344,8 +343,7 @@ Result parseAccessor(const Document& document, const Json& json, const std::stri
   MCC_GLTF_TRY(parseType(json, path, accessor));
   MCC_GLTF_TRY(readUnsigned(json, "count", path, kMaxAccessorCount, accessor.count));
   if (findMember(json, "bufferView") != nullptr) {
-    MCC_GLTF_TRY(readViewIndex(document, json, path, accessor.view));
-    MCC_GLTF_TRY(readOptionalUnsigned(json, "byteOffset", path, kMaxCount, accessor.offset));
+    MCC_GLTF_TRY(readPlace(document, json, path, accessor.view, accessor.offset));
   }
   if (!accessor.is_known_type) return {};
   if (const Json* flag = findMember(json, "normalized"); flag != nullptr) {
