@@ -70,7 +70,7 @@ Result PayloadDecoder::open() {
   for (size_t i = 0; i < uses.size(); ++i) {
     for (const ExtensionUse* user : uses[i].users) {
       for (const auto& attribute : user->attributes) addAttribute(i, *user, attribute);
-      addIndices(i, *user);
+      addTarget({i, user->piece, true, user->part}, user->indices_accessor);
     }
   }
   DecodedBytes bytes = document_.decoded;
@@ -86,10 +86,7 @@ Result PayloadDecoder::openPayload(const PayloadUse& use) {
   const PayloadInfo& info = payload.payload.info();
   MCC_GLTF_TRY(checkAgainstPayload(document_, use, info));
   for (const PieceInfo& piece : info.pieces) {
-    Piece& targets = payload.pieces.emplace_back();
-    targets.attributes.resize(piece.attributes.size());
-    targets.parts.resize(piece.parts.size());
-    if (use.users.empty()) continue;
+    if (use.users.empty()) break;
     counts_.wedges += piece.wedge_count;
     for (const PartInfo& part : piece.parts) counts_.triangles += part.triangle_count;
   }
@@ -100,7 +97,6 @@ Result PayloadDecoder::openPayload(const PayloadUse& use) {
 
 void PayloadDecoder::addAttribute(size_t payload, const ExtensionUse& use,
                                   const ExtensionUse::AttributeUse& attribute) {
-  if (!known_.insert(attribute.accessor).second) return;
   const auto& attributes = payloads_[payload].payload.info().pieces[use.piece].attributes;
   AttributeInfo info = attributes[attribute.id];
   if (info.coding == AttributeCoding::kAlias) {
@@ -109,25 +105,17 @@ void PayloadDecoder::addAttribute(size_t payload, const ExtensionUse& use,
     info.format = format;
   }
   codings_.emplace(attribute.accessor, info);
-  const Accessor& accessor = document_.accessors[attribute.accessor];
-  addTarget({payload, use.piece, false, attribute.id, accessor.component_type, accessor.columns},
-            attribute.accessor, payloads_[payload].pieces[use.piece].attributes[attribute.id]);
-}
-
-void PayloadDecoder::addIndices(size_t payload, const ExtensionUse& use) {
-  if (!known_.insert(use.indices_accessor).second) return;
-  const Accessor& accessor = document_.accessors[use.indices_accessor];
-  addTarget({payload, use.piece, true, use.part, accessor.component_type, accessor.columns},
-            use.indices_accessor, payloads_[payload].pieces[use.piece].parts[use.part]);
+  addTarget({payload, use.piece, false, attribute.id}, attribute.accessor);
 }
 
 /// Gives an accessor a view that already gets its elements, or a new one.
-void PayloadDecoder::addTarget(const Origin& origin, uint32_t number,
-                               std::vector<Target>& targets) {
+void PayloadDecoder::addTarget(const Origin& origin, uint32_t number) {
+  if (!known_.insert(number).second) return;
   const Accessor& accessor = document_.accessors[number];
   const bool is_indices = std::get<2>(origin);
   const uint32_t stride = attributeStride(accessor);
-  const auto [found, is_new] = view_of_.try_emplace(origin, views_.size());
+  const auto [found, is_new] =
+      view_of_.try_emplace({origin, accessor.component_type, accessor.columns}, views_.size());
   if (!is_new && are_shared_) {
     filled_.push_back({number, found->second});
     // glTF requires a stride where several vertex attributes share a view.
@@ -136,7 +124,7 @@ void PayloadDecoder::addTarget(const Origin& origin, uint32_t number,
   }
   if (!is_new && !is_indices) copied_bytes_ += accessor.count * accessor.elementBytes();
   filled_.push_back({number, views_.size()});
-  targets.push_back(filled_.back());
+  targets_[origin].push_back(filled_.back());
   NewView& view = views_.emplace_back();
   view.target = is_indices ? kElementArrayBuffer : kArrayBuffer;
   view.byte_count = accessor.count * (is_indices ? accessor.elementBytes() : stride);
@@ -147,11 +135,12 @@ void PayloadDecoder::addTarget(const Origin& origin, uint32_t number,
 /// memory of its own.
 class PayloadDecoder::Run {
  public:
-  Run(const Document& document, const OpenPayload& payload, const Place& place)
-      : document_(document), payload_(payload), place_(place) {}
+  Run(const PayloadDecoder& decoder, size_t number, const Place& place)
+      : decoder_(decoder), number_(number), place_(place) {}
 
   Result decode(const RunJobs& run_jobs) {
-    const std::span<const PieceInfo> infos = payload_.payload.info().pieces;
+    const auto& [payload, where] = decoder_.payloads_[number_];
+    const std::span<const PieceInfo> infos = payload.info().pieces;
     attributes_.resize(infos.size());
     parts_.resize(infos.size());
     std::vector<PieceTarget> pieces;
@@ -162,7 +151,7 @@ class PayloadDecoder::Run {
     }
     mcc::DecodeOptions options;
     options.run_jobs = runnerOf(run_jobs);
-    MCC_GLTF_TRY(toResult(payload_.payload.decode(pieces, options), payload_.where));
+    MCC_GLTF_TRY(toResult(payload.decode(pieces, options), where));
     for (const Detour& detour : detours_) store(detour);
     return {};
   }
@@ -170,25 +159,33 @@ class PayloadDecoder::Run {
  private:
   /// Elements that are decoded without gaps and then stored for each of their accessors.
   struct Detour {
-    const std::vector<Target>* targets = nullptr;
+    const std::vector<Filled>* targets = nullptr;
     bool is_part = false;
     std::vector<uint8_t> elements;
   };
 
-  uint8_t* placeOf(const Target& target) const { return place_ ? place_(target.view) : nullptr; }
+  const std::vector<Filled>& targetsOf(size_t piece, bool is_part, size_t number) const {
+    static const std::vector<Filled> kEmpty;
+    const auto found = decoder_.targets_.find({number_, piece, is_part, number});
+    return found == decoder_.targets_.end() ? kEmpty : found->second;
+  }
+  const Accessor& accessorOf(const Filled& target) const {
+    return decoder_.document_.accessors[target.accessor];
+  }
+  uint8_t* placeOf(const Filled& target) const { return place_ ? place_(target.view) : nullptr; }
 
-  uint8_t* addDetour(const std::vector<Target>& targets, bool is_part, uint64_t byte_count) {
-    const auto is_wanted = [&](const Target& target) { return placeOf(target) != nullptr; };
+  uint8_t* addDetour(const std::vector<Filled>& targets, bool is_part, uint64_t byte_count) {
+    const auto is_wanted = [&](const Filled& target) { return placeOf(target) != nullptr; };
     if (std::none_of(targets.begin(), targets.end(), is_wanted)) return nullptr;
     detours_.push_back({&targets, is_part, std::vector<uint8_t>(byte_count)});
     return detours_.back().elements.data();
   }
 
   void addAttribute(const PieceInfo& info, size_t piece, size_t number) {
-    const std::vector<Target>& targets = payload_.pieces[piece].attributes[number];
+    const std::vector<Filled>& targets = targetsOf(piece, false, number);
     AttributeTarget& target = attributes_[piece].emplace_back();
     if (targets.empty()) return;
-    const Accessor& accessor = document_.accessors[targets[0].accessor];
+    const Accessor& accessor = accessorOf(targets[0]);
     const bool is_padded = accessor.elementBytes() != accessor.tightBytes();
     if (targets.size() == 1 && !is_padded) {
       target = {placeOf(targets[0]), attributeStride(accessor)};
@@ -199,21 +196,20 @@ class PayloadDecoder::Run {
   }
 
   void addPart(const PieceInfo& info, size_t piece, size_t number) {
-    const std::vector<Target>& targets = payload_.pieces[piece].parts[number];
+    const std::vector<Filled>& targets = targetsOf(piece, true, number);
     PartTarget& target = parts_[piece].emplace_back();
     if (targets.size() == 1) {
-      const Accessor& accessor = document_.accessors[targets[0].accessor];
-      target = {placeOf(targets[0]), indexTypeOf(accessor.component_type)};
+      target = {placeOf(targets[0]), indexTypeOf(accessorOf(targets[0]).component_type)};
     } else if (!targets.empty()) {
       target.indices = addDetour(targets, true, uint64_t{12} * info.parts[number].triangle_count);
     }
   }
 
   void store(const Detour& detour) const {
-    for (const Target& target : *detour.targets) {
+    for (const Filled& target : *detour.targets) {
       uint8_t* const out = placeOf(target);
       if (out == nullptr) continue;
-      const Accessor& accessor = document_.accessors[target.accessor];
+      const Accessor& accessor = accessorOf(target);
       if (detour.is_part) {
         narrowIndices(detour.elements, accessor.tightBytes(), out);
       } else {
@@ -222,8 +218,8 @@ class PayloadDecoder::Run {
     }
   }
 
-  const Document& document_;
-  const OpenPayload& payload_;
+  const PayloadDecoder& decoder_;
+  const size_t number_;  ///< of the payload
   const Place& place_;
   std::vector<std::vector<AttributeTarget>> attributes_;
   std::vector<std::vector<PartTarget>> parts_;
@@ -233,9 +229,8 @@ class PayloadDecoder::Run {
 Result PayloadDecoder::decode(uint32_t thread_count, const Place& place) const {
   ThreadBudget threads(thread_count);
   const RunJobs run_jobs = runJobsOn(threads);
-  return runParallel(payloads_.size(), threads, [&](size_t i) {
-    return Run(document_, payloads_[i], place).decode(run_jobs);
-  });
+  return runParallel(payloads_.size(), threads,
+                     [&](size_t i) { return Run(*this, i, place).decode(run_jobs); });
 }
 
 namespace {

@@ -89,27 +89,18 @@ class PayloadDecoder {
   const CodedAttributes& codings() const { return codings_; }
 
  private:
-  /// A view that gets the elements of an attribute or a part, and an accessor that reads it.
-  using Target = Filled;
-  struct Piece {
-    std::vector<std::vector<Target>> attributes;
-    std::vector<std::vector<Target>> parts;
-  };
   struct OpenPayload {
     Payload payload;
     std::string where;
-    std::vector<Piece> pieces;
   };
-  /// Where the elements of an accessor come from, and how they are stored: payload, piece, whether
-  /// it is a part, its number, component type, columns.
-  using Origin = std::tuple<size_t, uint64_t, bool, uint64_t, ComponentType, uint32_t>;
+  /// Where elements come from: payload, piece, whether it is a part, its number.
+  using Origin = std::tuple<size_t, uint64_t, bool, uint64_t>;
   class Run;
 
   Result openPayload(const PayloadUse& use);
   void addAttribute(size_t payload, const ExtensionUse& use,
                     const ExtensionUse::AttributeUse& attribute);
-  void addIndices(size_t payload, const ExtensionUse& use);
-  void addTarget(const Origin& origin, uint32_t accessor, std::vector<Target>& targets);
+  void addTarget(const Origin& origin, uint32_t accessor);
 
   const Document& document_;
   const bool are_shared_;
@@ -119,7 +110,10 @@ class PayloadDecoder {
   std::vector<NewView> views_;
   CodedAttributes codings_;
   std::set<uint32_t> known_;  ///< accessors that are in `filled_`
-  std::map<Origin, size_t> view_of_;
+  /// The views that get the elements, each with an accessor that reads it.
+  std::map<Origin, std::vector<Filled>> targets_;
+  /// The first view that has them in a component type and a number of columns.
+  std::map<std::tuple<Origin, ComponentType, uint32_t>, size_t> view_of_;
   uint64_t copied_bytes_ = 0;  ///< of views that repeat others
   Counts counts_;
 };
