@@ -177,9 +177,6 @@ void removeBytes(Json& accessor) {
   accessor.erase("sparse");
 }
 
-/// Index type of new accessors for `vertex_count` vertices; the largest value is the restart value.
-uint32_t indexTypeFor(uint32_t vertex_count) { return vertex_count <= 65535 ? 5123 : 5125; }
-
 /// Writes the payloads into the JSON of the document.
 class Applier {
  public:
@@ -326,11 +323,14 @@ class Applier {
       index = take(part.indices_accessor, part.users[0].path() + ": indices");
     }
     Json& accessor = accessors[index];
-    const uint32_t gl_type = indexTypeFor(wedge_count);
     const bool fits =
         part.indices_accessor != kNone &&
         holdsIndices(document_.accessors[part.indices_accessor].component_type, wedge_count);
-    if (!fits) accessor["componentType"] = gl_type;
+    const bool is_short = holdsIndices(ComponentType::kUint16, wedge_count);
+    if (!fits) {
+      accessor["componentType"] =
+          kGlTypes[static_cast<size_t>(is_short ? ComponentType::kUint16 : ComponentType::kUint32)];
+    }
     accessor["count"] = part.triangles.size();
     setBounds(bounds, ComponentType::kUint32, false, accessor);
     return index;

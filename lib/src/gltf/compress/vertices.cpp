@@ -91,17 +91,6 @@ void reorderAttributes(const Document& document, const PiecePlan& piece,
 
 namespace {
 
-/// Calls visit(uint64_t accessor) for the accessors of vertex numbers of a primitive. A member that
-/// is no number of an accessor counts as one that does not exist.
-template <typename Visit>
-void visitVertexNumbers(const Json& primitive, const Visit& visit) {
-  visitExtensionAccessors(primitive, [&](const Json& number, ExtensionAccessor what) {
-    if (what != ExtensionAccessor::kVertexNumbers) return;
-    uint64_t accessor = 0;
-    visit(asUnsigned(number, accessor) ? accessor : uint64_t{kNone});
-  });
-}
-
 /// Counts the uses of an accessor: each member of a primitive that names it, and one for everything
 /// else.
 uint64_t useCount(const Accessor& accessor) {
@@ -121,18 +110,21 @@ class Collector {
   /// Collects the accessors of a piece. Returns false if one of them is also used by something
   /// else, or cannot be changed.
   bool collect(PiecePlan& piece) {
-    std::vector<uint64_t> named;
+    std::vector<uint32_t> named;
     for (const PartPlan& part : piece.parts) {
       for (const PrimitiveRef& user : part.users) {
-        visitVertexNumbers(*document_.primitive(user).json,
-                           [&](uint64_t accessor) { named.push_back(accessor); });
+        visitExtensionAccessors(*document_.primitive(user).json,
+                                [&](const Json& number, ExtensionAccessor what) {
+                                  if (what != ExtensionAccessor::kVertexNumbers) return;
+                                  named.push_back(indexOf(&number, document_.accessors.size()));
+                                });
       }
     }
     std::sort(named.begin(), named.end());
     for (size_t i = 0, end = 0; i < named.size(); i = end) {
       while (end < named.size() && named[end] == named[i]) ++end;
-      if (named[i] >= document_.accessors.size()) return false;
-      const auto accessor = static_cast<uint32_t>(named[i]);
+      const uint32_t accessor = named[i];
+      if (accessor == kNone) return false;
       const bool is_only_ours = useCount(document_.accessors[accessor]) == end - i;
       if (!is_only_ours || !canBeChanged(accessor, piece.wedge_count)) return false;
       piece.vertex_numbers.push_back(accessor);

@@ -164,17 +164,14 @@ class MeshReader {
     return {};
   }
 
-  bool hasBytes(uint32_t accessor) const {
-    const Accessor& claimed = document_.accessors[accessor];
-    return claimed.view != kNone || claimed.sparse.count != 0;
-  }
-
   /// Returns why a primitive is not decoded; empty when it can be. Completes the claims.
   std::string obstacle(const Primitive& primitive, CodedPrimitive& coded) const {
     if (primitive.mode != 4) return "is compressed but not a triangle list";
     std::vector<uint32_t> all = coded.attributes;
     all.push_back(coded.indices);
-    const auto has_bytes = [&](uint32_t accessor) { return hasBytes(accessor); };
+    const auto has_bytes = [&](uint32_t accessor) {
+      return !document_.accessors[accessor].views().empty();
+    };
     if (std::any_of(all.begin(), all.end(), has_bytes)) {
       return "is compressed, but its accessors have bytes of their own";
     }

@@ -325,14 +325,14 @@ class PositionStore {
       const Lattice& lattice = accessors_.coding(accessor)->lattice;
       if (accessor == mesh.positions[0]) mesh.lattice = lattice;
       if (lattice != mesh.lattice) return "its primitives are on different lattices";
-      if (!pointsFit(accessor, mesh.lattice)) {
+      if (!areOn(mesh.lattice, accessor, false)) {
         return "its lattice has more than 16 bits";
       }
     }
     for (const uint32_t accessor : mesh.deltas) {
       const bool has_same_step =
           isOnLattice(accessor) && accessors_.coding(accessor)->lattice.step == mesh.lattice.step;
-      if (!has_same_step || !deltasFit(accessor, mesh.lattice.step)) {
+      if (!has_same_step || !areOn(mesh.lattice, accessor, true)) {
         return "a morph target is not on its lattice";
       }
     }
@@ -345,17 +345,15 @@ class PositionStore {
     return "";
   }
 
-  /// fits() looks at every value, so it is called once per accessor, however many primitives share
-  /// it.
-  bool pointsFit(uint32_t accessor, const Lattice& lattice) {
-    const auto [found, is_new] = points_fit_.try_emplace(accessor, false);
-    if (is_new) found->second = fits(accessor, lattice.origin, lattice.step, 0, kLastPoint);
-    return found->second;
-  }
-  bool deltasFit(uint32_t accessor, float step) {
+  /// Whether values are points of a lattice, or differences of some. fits() looks at every value,
+  /// so it is called once per accessor, however many primitives share it.
+  bool areOn(const Lattice& lattice, uint32_t accessor, bool is_delta) {
     constexpr float kZero[3] = {0, 0, 0};
-    const auto [found, is_new] = deltas_fit_.try_emplace(accessor, false);
-    if (is_new) found->second = fits(accessor, kZero, step, -kLastDelta, kLastDelta);
+    const auto [found, is_new] = are_on_lattice_.try_emplace({accessor, is_delta}, false);
+    if (is_new) {
+      found->second = is_delta ? fits(accessor, kZero, lattice.step, -kLastDelta, kLastDelta)
+                               : fits(accessor, lattice.origin, lattice.step, 0, kLastPoint);
+    }
     return found->second;
   }
 
@@ -536,10 +534,8 @@ class PositionStore {
                            accessor.count >= joint_count;
     AccessorData data;
     if (!is_usable || !readAccessor(source_, index, data).ok()) return {};
-    for (size_t i = 0; i < matrices.size(); ++i) {
-      const auto element = data.element(i / 16);
-      matrices[i] = static_cast<float>(
-          componentValue(element.data() + 4 * (i % 16), ComponentType::kFloat32));
+    for (size_t i = 0; i < joint_count; ++i) {
+      std::memcpy(&matrices[16 * i], data.element(i).data(), 16 * sizeof(float));
     }
     return matrices;
   }
@@ -599,14 +595,11 @@ class PositionStore {
 
   /// Whether the matrices of a skin belong to it alone.
   bool hasOwnMatrices(const Json& skin) const {
-    uint64_t accessor = 0;
-    if (!asUnsigned(findMember(skin, "inverseBindMatrices"), accessor)) return false;
+    const Json* const number = findMember(skin, "inverseBindMatrices");
+    const uint32_t accessor = indexOf(number, source_.accessors.size());
     const auto users = matrix_users_.find(accessor);
-    return users != matrix_users_.end() && users->second == 1 && !isForeign(accessor);
-  }
-
-  bool isForeign(uint64_t accessor) const {
-    return accessor < source_.accessors.size() && source_.accessors[accessor].is_foreign;
+    return users != matrix_users_.end() && users->second == 1 &&
+           !source_.accessors[accessor].is_foreign;
   }
 
   /// Returns the number of a skin whose matrices apply to lattice points.
@@ -652,9 +645,8 @@ class PositionStore {
   std::vector<std::string>& notes_;
   const std::string node_extension_;  ///< an extension that may refer to nodes, or empty
   std::vector<MeshPlan> meshes_;
-  std::map<uint32_t, bool> points_fit_;    ///< by accessor
-  std::map<uint32_t, bool> deltas_fit_;    ///< by accessor
-  std::map<uint64_t, bool> has_matrices_;  ///< by skin
+  std::map<std::pair<uint32_t, bool>, bool> are_on_lattice_;  ///< by accessor and `is_delta`
+  std::map<uint64_t, bool> has_matrices_;                     ///< by skin
   std::map<uint64_t, uint64_t> child_of_node_;
   std::map<uint64_t, std::vector<SkinnedNode>> skinned_;  ///< by skin
   std::map<uint64_t, size_t> matrix_users_;               ///< skins by accessor of matrices
