@@ -65,7 +65,6 @@ class Planner {
   /// A piece in the plan and its parts, by index accessor and mode.
   struct KnownPiece {
     std::string note;                   ///< why its elements cannot be read
-    bool is_read = false;               ///< they were read, or cannot be
     std::vector<AccessorData> sources;  ///< of its attributes, until the first primitive uses them
     bool is_used = false;  ///< a part of it is used; only then is its place in the plan known
     size_t payload = 0;
@@ -121,9 +120,10 @@ class Planner {
     note = zeroNote(piece, indices);
     if (!note.empty()) return note;
 
-    KnownPiece& known = pieces_[pieceKey(piece)];
-    note = readPiece(piece, known);
-    if (!note.empty()) return note;
+    const auto [place, is_new_piece] = pieces_.try_emplace(pieceKey(piece));
+    KnownPiece& known = place->second;
+    if (is_new_piece) readPiece(piece, known);
+    if (!known.note.empty()) return known.note;
     const auto [found, is_new] = known.parts.try_emplace({indices, mode});
     KnownPart& part = found->second;
     if (is_new) {
@@ -263,11 +263,8 @@ class Planner {
                     kMaxSharing, " times those of the file");
   }
 
-  /// Reads the elements of a piece when it is met for the first time. Returns why they cannot be
-  /// read.
-  const std::string& readPiece(const PiecePlan& piece, KnownPiece& known) {
-    if (known.is_read) return known.note;
-    known.is_read = true;
+  /// Reads the elements of a piece, or notes why they cannot be read.
+  void readPiece(const PiecePlan& piece, KnownPiece& known) {
     uint64_t bytes = 0;
     for (const AttributePlan& attribute : piece.attributes) {
       bytes += uint64_t{piece.wedge_count} * document_.accessors[attribute.accessor].tightBytes();
@@ -279,7 +276,6 @@ class Planner {
       known.note = noteOf(readAccessor(document_, attribute.accessor, known.sources.back()));
     }
     if (!known.note.empty()) known.sources.clear();
-    return known.note;
   }
 
   std::string collectTriangles(uint32_t wedge_count, PartPlan& part) {

@@ -97,14 +97,6 @@ class ByteOwners {
   uint64_t total_ = 0;
 };
 
-template <typename Visit>
-void visitAccessors(const PiecePlan& piece, const Visit& visit) {
-  for (const AttributePlan& attribute : piece.attributes) visit(attribute.accessor);
-  for (const PartPlan& part : piece.parts) {
-    if (part.indices_accessor != kNone) visit(part.indices_accessor);
-  }
-}
-
 struct OwnedPiece {
   const PiecePlan* piece;
   size_t owner;
@@ -121,12 +113,16 @@ ByteOwners ownersOf(const Document& document, const std::vector<bool>& in_other_
       ranges.add(range, owner);
     }
   };
-  for (const OwnedPiece& owned : pieces) {
-    visitAccessors(*owned.piece, [&](uint32_t accessor) {
-      if (in_other_use[accessor]) return;
+  for (const auto& [piece, owner] : pieces) {
+    std::vector<uint32_t> accessors;
+    for (const AttributePlan& attribute : piece->attributes)
+      accessors.push_back(attribute.accessor);
+    for (const PartPlan& part : piece->parts) accessors.push_back(part.indices_accessor);
+    for (const uint32_t accessor : accessors) {
+      if (accessor == kNone || in_other_use[accessor]) continue;
       is_ours[accessor] = true;
-      add(accessor, owned.owner);
-    });
+      add(accessor, owner);
+    }
   }
   for (uint32_t accessor = 0; accessor < is_ours.size(); ++accessor) {
     if (!is_ours[accessor]) add(accessor, ByteOwners::kSomebodyElse);

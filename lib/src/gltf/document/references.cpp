@@ -218,13 +218,6 @@ bool isUnderstood(std::string_view name, const Json& object) {
   return is_understood;
 }
 
-/// Whether an object of a mesh or primitive means the same in whatever order vertices and triangles
-/// are.
-bool isOrderFree(std::string_view name, const Json& object) {
-  const KnownExtension* known = findKnown(name);
-  return known != nullptr && known->is_order_free(object);
-}
-
 /// Whether an object of a primitive depends on the order only by the numbers of vertices in
 /// accessors.
 bool isRenumberable(std::string_view name, const Json& object) {
@@ -383,8 +376,10 @@ std::string orderDependentPart(const Json& mesh_or_primitive, NumbersOfVertices 
   if (const Json* extensions = findMember(mesh_or_primitive, "extensions");
       extensions != nullptr && extensions->is_object()) {
     for (const auto& [name, value] : extensions->items()) {
-      const bool is_free = isOrderFree(name, value) || (numbers == NumbersOfVertices::kCanChange &&
-                                                        isRenumberable(name, value));
+      const KnownExtension* known = findKnown(name);
+      const bool is_free =
+          (known != nullptr && known->is_order_free(value)) ||
+          (numbers == NumbersOfVertices::kCanChange && isRenumberable(name, value));
       if (!is_free) return name;
     }
   }
