@@ -257,16 +257,6 @@ class PieceSimplifier {
   std::vector<uint32_t> numbers_;  ///< by vertex of the piece; kNone between two parts
 };
 
-bool hasPositions(const PiecePlan& piece) {
-  return !piece.attributes.empty() && piece.attributes[0].format.semantic == Semantic::kPosition &&
-         piece.attributes[0].target == kNone;
-}
-
-bool hasLargePart(const ConvertOptions& options, const PiecePlan& piece) {
-  return std::any_of(piece.parts.begin(), piece.parts.end(),
-                     [&](const PartPlan& part) { return wantedTriangles(options, part) != 0; });
-}
-
 }  // namespace
 
 Result makePreviews(const ConvertOptions& options, const std::vector<EncodedPayload>& payloads,
@@ -278,7 +268,6 @@ Result makePreviews(const ConvertOptions& options, const std::vector<EncodedPayl
     plan.mesh = payload.plan.mesh;
     plan.is_preview = true;
     for (const PiecePlan& piece : payload.plan.pieces) {
-      if (!hasPositions(piece) || !hasLargePart(options, piece)) continue;
       PiecePlan preview;
       MCC_GLTF_TRY(PieceSimplifier(options, piece, remarks).run(preview));
       if (!preview.parts.empty()) plan.pieces.push_back(std::move(preview));
