@@ -362,10 +362,11 @@ Result decodeInput(Input& input, const Output& output, const DecodeOptions& opti
   document.decoded = DecodedBytes(options.max_decoded_bytes, document.source_bytes);
   MCC_GLTF_TRY(decompressDocument(document, options, decompressed));
   report.notes.insert(report.notes.end(), decompressed.notes.begin(), decompressed.notes.end());
-  report.payload_count = static_cast<uint32_t>(decompressed.counts.payloads);
-  report.primitive_count = decompressed.primitive_count;
-  report.triangle_count = decompressed.counts.triangles;
-  report.wedge_count = decompressed.counts.wedges;
+  const PayloadDecoder::Counts& counts = decompressed.decoder->counts();
+  report.payload_count = static_cast<uint32_t>(counts.payloads);
+  report.primitive_count = static_cast<uint32_t>(decompressed.decoder->uses().size());
+  report.triangle_count = counts.triangles;
+  report.wedge_count = counts.wedges;
   if (report.payload_count != 0) {
     const BufferContent buffer = {decompressed.layout.byte_count, [&](std::span<uint8_t> bytes) {
                                     return decompressed.fill(options.thread_count, bytes);

@@ -83,22 +83,19 @@ void leaveAllAlone(const std::string& note, EncodedPayload& payload,
   payload = {};
 }
 
-Result encodeOne(const EncodeOptions& options, EncodedPayload& payload,
-                 std::vector<LeftAlone>& left_alone) {
+void encodeOne(const EncodeOptions& options, EncodedPayload& payload,
+               std::vector<LeftAlone>& left_alone) {
   if (!encodePlan(options, payload.plan, payload.result).ok()) {
     removeRefusedPieces(options, payload.plan, left_alone);
     payload.result = {};
-    if (payload.plan.pieces.empty()) return {};
+    if (payload.plan.pieces.empty()) return;
+    // The codec may accept each piece alone, but not all of them together.
     const Status status = encodePlan(options, payload.plan, payload.result);
-    if (!status.ok()) {  // the codec accepts each piece alone, but not all of them together
-      leaveAllAlone(refusal(status), payload, left_alone);
-      return {};
-    }
+    if (!status.ok()) return leaveAllAlone(refusal(status), payload, left_alone);
   }
   Payload opened;
   const Status status = opened.open(payload.result.payload);
   if (status.error == Error::kLimit) leaveAllAlone(refusal(status), payload, left_alone);
-  return {};
 }
 
 /// Reports how much of the payloads' triangles is encoded.
@@ -150,7 +147,7 @@ Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> pl
   EncodingProgress progress(options, plans);
   ThreadBudget threads(options.thread_count);
   const RunJobs run_jobs = runJobsOn(threads);
-  MCC_GLTF_TRY(runParallel(plans.size(), threads, [&](size_t i) {
+  MCC_GLTF_TRY(runParallel(plans.size(), threads, [&](size_t i) -> Result {
     PayloadPlan& plan = encoded[i].plan;
     plan = std::move(plans[i]);
     plan.keep_vertex_order |= options.keep_vertex_order;
@@ -158,9 +155,9 @@ Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> pl
     EncodeOptions encode_options = optionsOf(options, plan);
     encode_options.run_jobs = run_jobs;
     const uint64_t triangle_count = plan.triangleCount();
-    Result result = encodeOne(encode_options, encoded[i], refused[i]);
+    encodeOne(encode_options, encoded[i], refused[i]);
     progress.advance(triangle_count);
-    return result;
+    return {};
   }));
   for (size_t i = 0; i < encoded.size(); ++i) {
     left_alone.insert(left_alone.end(), refused[i].begin(), refused[i].end());

@@ -2,7 +2,6 @@
 #include "gltf/compress/savings.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <string>
 #include <string_view>

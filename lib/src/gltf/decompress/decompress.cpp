@@ -261,7 +261,7 @@ void editJson(const PayloadDecoder& decoder, Json& json) {
 
 Result Decompressed::fill(uint32_t thread_count, std::span<uint8_t> buffer) const {
   layout.copyTo(buffer);
-  if (decoder == nullptr) return {};
+  if (are_filled) return {};
   return decoder->decode(thread_count,
                          [&](size_t view) { return buffer.data() + layout.offsets[view]; });
 }
@@ -270,25 +270,22 @@ Result decompressDocument(const Document& document, const DecodeOptions& options
                           Decompressed& decompressed) {
   using Views = PayloadDecoder::Views;
   decompressed = {};
-  const bool to_integers = options.decode_to == DecodeTo::kIntegers;
+  decompressed.are_filled = options.decode_to == DecodeTo::kIntegers;
   // Accessors of the same elements may become different integers.
-  auto decoder = std::make_unique<PayloadDecoder>(
-      document, to_integers ? Views::kOfEachAccessor : Views::kShared);
-  MCC_GLTF_TRY(decoder->open());
-  decompressed.counts = decoder->counts();
-  decompressed.primitive_count = static_cast<uint32_t>(decoder->uses().size());
-  if (decoder->uses().empty()) return {};
+  decompressed.decoder = std::make_unique<PayloadDecoder>(
+      document, decompressed.are_filled ? Views::kOfEachAccessor : Views::kShared);
+  PayloadDecoder& decoder = *decompressed.decoder;
+  MCC_GLTF_TRY(decoder.open());
+  if (decoder.uses().empty()) return {};
   std::vector<NewView>& views = decompressed.views;
-  views = decoder->takeViews();
+  views = decoder.takeViews();
   decompressed.json = document.json;
-  editJson(*decoder, decompressed.json);
-  if (to_integers) {
+  editJson(decoder, decompressed.json);
+  if (decompressed.are_filled) {
     for (NewView& view : views) view.hold(std::vector<uint8_t>(view.byte_count));
-    MCC_GLTF_TRY(decoder->decode(options.thread_count,
-                                 [&](size_t view) { return views[view].owned.data(); }));
-    storeIntegers(document, decoder->codings(), decompressed.json, views, decompressed.notes);
-  } else {
-    decompressed.decoder = std::move(decoder);
+    MCC_GLTF_TRY(decoder.decode(options.thread_count,
+                                [&](size_t view) { return views[view].owned.data(); }));
+    storeIntegers(document, decoder.codings(), decompressed.json, views, decompressed.notes);
   }
   decompressed.layout = layOut(document, views, decompressed.json);
   return {};

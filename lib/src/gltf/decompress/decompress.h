@@ -123,9 +123,8 @@ struct Decompressed {
   Json json;
   Layout layout;
   std::vector<NewView> views;
-  std::unique_ptr<PayloadDecoder> decoder;  ///< fills the views; null: they hold their elements
-  PayloadDecoder::Counts counts;            ///< without payloads, only this is set
-  uint32_t primitive_count = 0;
+  std::unique_ptr<PayloadDecoder> decoder;  ///< without payloads, only this is set
+  bool are_filled = false;                  ///< the views hold their elements already
   std::vector<std::string> notes;
 
   /// Stores all bytes of the buffer, which has zeros. The document must still exist.

@@ -459,12 +459,10 @@ class PositionStore {
       points[i] = static_cast<int32_t>(
           pointOf(accessors_.value(accessor, i), origin, double{lattice.step}));
     }
+    const IntegerType* const types = is_delta ? kSigned : kUnsigned;
     const auto [low, high] = std::minmax_element(points.begin(), points.end());
-    const bool is_small = is_delta ? *low >= -127 && *high <= 127 : *high <= 255;
-    accessors_.replace(accessor,
-                       is_delta ? (is_small ? ComponentType::kInt8 : ComponentType::kInt16)
-                                : (is_small ? ComponentType::kUint8 : ComponentType::kUint16),
-                       false, points);
+    const bool is_small = *low >= -types[0].last && *high <= types[0].last;
+    accessors_.replace(accessor, types[is_small ? 0 : 1].type, false, points);
   }
 
   void storeMesh(const MeshPlan& mesh) {
