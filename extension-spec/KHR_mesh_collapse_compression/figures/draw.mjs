@@ -13,7 +13,7 @@ const NEW = '#bbdefb';
 
 const number = (x) => Number(x.toFixed(1));
 const line = (a, b, colour = GREY, width = 2, more = '') =>
-  `<line x1="${number(a[0])}" y1="${number(a[1])}" x2="${number(b[0])}" y2="${number(b[1])}" stroke="${colour}" stroke-width="${width}"${more}/>`;
+  `<path d="M${number(a[0])} ${number(a[1])}L${number(b[0])} ${number(b[1])}" stroke="${colour}" stroke-width="${width}"${more}/>`;
 const arrow = (a, b, colour = DARK) => line(a, b, colour, 2, ` marker-end="url(#${colour === BLUE ? 'b' : 'a'})"`);
 const dashed = (a, b, colour = GREY) => line(a, b, colour, 1.5, ' stroke-dasharray="5 4"');
 const dot = (p, colour = DARK, radius = 5) =>
@@ -36,6 +36,18 @@ const middle = (a, b, t = 0.5) => [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]
 const closed = (points, colour = GREY, width = 2) =>
   points.map((p, i) => line(p, points[(i + 1) % points.length], colour, width));
 
+/// Lines of one style that follow each other become one path, unless each has its own arrowhead.
+function joined(parts) {
+  const all = [];
+  for (const part of parts.flat()) {
+    const [, line, style] = /^<path d="([^"]*)"(.*)$/.exec(part) ?? [];
+    const last = all.at(-1);
+    if (line !== undefined && last?.style === style && !style.includes('marker')) last.text = last.text.replace('" ', `${line}" `);
+    else all.push({ text: part, style });
+  }
+  return all.map(({ text }) => text);
+}
+
 function write(name, top, width, bottom, label, parts) {
   const marker = (id, colour) =>
     `<marker id="${id}" viewBox="0 0 10 10" refX="8" refY="5" markerWidth="7" markerHeight="7" orient="auto"><path d="M0 0L10 5L0 10z" fill="${colour}"/></marker>`;
@@ -43,7 +55,7 @@ function write(name, top, width, bottom, label, parts) {
     `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 ${top} ${width} ${bottom - top}" font-family="Helvetica, Arial, sans-serif" role="img" aria-label="${label}">`,
     `<defs>${marker('a', DARK)}${marker('b', BLUE)}</defs>`,
     `<rect y="${top}" width="${width}" height="${bottom - top}" fill="#ffffff"/>`,
-    ...parts.flat(),
+    ...joined(parts),
     '</svg>',
   ].join('\n');
   fs.writeFileSync(new URL(name, import.meta.url), `${svg}\n`);
