@@ -48,6 +48,7 @@ class MeshCollapseExtension {
     gltf.accessors = this.#views.accessors;
     gltf.bufferViews = this.#views.bufferViews;
     gltf.bufferViews.forEach((view, index) => { view.index = index; });
+    this.#views.begin(gltf);
   }
 
   // Called by the loader for every buffer view; null leaves it to other extensions.

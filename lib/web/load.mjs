@@ -12,13 +12,13 @@ export async function compileModule({ module, bytes }, url) {
   try {
     return await (bytes !== undefined ? WebAssembly.compile(bytes) : compileFrom(new URL(url, globalThis.document?.baseURI ?? import.meta.url)));
   } catch (error) {
-    throw new MccError(`cannot load ${bytes ? 'the module' : String(url)}: ${error.message}`, 'Load');
+    throw new MccError(`cannot load ${bytes ? 'the module' : url}: ${error.message}`, 'Load');
   }
 }
 
 async function compileFrom(url) {
-  const file = await fileOf(url);
-  if (file !== undefined) return WebAssembly.compile(file);
+  const file = fileOf(url);
+  if (file !== undefined) return WebAssembly.compile(await file);
   const response = await fetch(url);
   if (!response.ok) throw new Error(`status ${response.status}`);
   const isWasm = response.headers.get('Content-Type')?.startsWith('application/wasm');

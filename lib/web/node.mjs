@@ -8,12 +8,8 @@ function importOfNode(name) {
   return import(/* @vite-ignore */ /* webpackIgnore: true */ `node:${name}`);
 }
 
-/** Returns the bytes of a file; undefined for other URLs. */
-export async function fileOf(url) {
-  if (url.protocol !== 'file:') return undefined;
-  const { readFile } = await importOfNode('fs/promises');
-  return readFile(url);
-}
+/** Returns a promise of the bytes of a file; undefined for other URLs. */
+export const fileOf = (url) => (url.protocol === 'file:' ? importOfNode('fs/promises').then(({ readFile }) => readFile(url)) : undefined);
 
 /** Creates a worker that has the interface of the browser's. */
 export async function workerOfNode(onMessage, onError) {

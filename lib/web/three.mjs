@@ -59,6 +59,7 @@ export class MeshCollapsePlugin {
     const { accessors, bufferViews, hasCopies } = this.#views;
     parser.json = { ...json, accessors, bufferViews };
     if (hasCopies || this.#options.integers) (await rarelyNeeded()).adaptMeshes(parser, json, this.#options.integers && this);
+    this.#views.begin(json);
   }
 
   // Called by the loader for every buffer view; null leaves it to other plugins.

@@ -10,6 +10,7 @@ import { decodeAnywhere, preload } from './threads.mjs';
 
 export class PayloadViews {
   #sources = new Map(); // by the number of an added buffer view
+  #early = []; // functions that decode payloads
   /** Whether accessors have the same elements. */
   hasCopies = false;
 
@@ -43,6 +44,7 @@ export class PayloadViews {
       let decoded;
       // A payload is decoded once, when the first of its accessors is requested.
       const decodeOnce = () => (decoded ??= start(payload));
+      this.#early.push(decodeOnce);
       const numbers = new Map(); // numbers of added buffer views, by what they hold
       for (const target of payload.targets) this.#addView(target, decodeOnce, numbers);
     }
@@ -67,6 +69,15 @@ export class PayloadViews {
       });
     }
     this.accessors[target.accessor] = { ...accessor, bufferView: numbers.get(origin) };
+  }
+
+  /**
+   * Decodes the payloads of a document with few before the loader asks for them, which it does when it has made much else; but not where it
+   * will ask for coarse levels first.
+   */
+  begin({ extensionsUsed }) {
+    if (this.#early.length > MOST_AT_A_TIME || extensionsUsed?.includes('MSFT_lod')) return;
+    for (const decode of this.#early) decode().catch(() => {}); // who asks for it will be told
   }
 
   /**

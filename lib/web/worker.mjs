@@ -12,8 +12,8 @@ import { listenInNode } from './node.mjs';
 import { nextTask } from './tasks.mjs';
 import { warmUpPayload } from './warm_up.mjs';
 
-/** After so many, engines have compiled well what is called often. */
-const WARM_UPS = 60;
+/** After so many, engines compile well what is called often. What more of them take is not saved later. */
+const WARM_UPS = 10;
 
 const decoders = [];
 const blockDecoders = new Map();

@@ -3,10 +3,12 @@ import assert from 'node:assert/strict';
 import { createServer } from 'node:http';
 import { after, before, describe, test } from 'node:test';
 import { checkDocument } from '../../extension-spec/reference/restrictions.mjs';
+import { Decoder } from '../../lib/web/core.mjs';
 import { createDecoderPool, decodePayload, decodePayloadSync, init, MccError, ready } from '../../lib/web/decoder.mjs';
 import { elementsOf, payloadsOf } from '../../lib/web/document.mjs';
 import { useInlineCore } from '../../lib/web/source.mjs';
 import { readGlb, unpackGlb } from '../../lib/web/unpack.mjs';
+import { warmUpPayload } from '../../lib/web/warm_up.mjs';
 import { DECODERS, manifest, payloadOf, readAsset, wasm, whatDiffers } from './support/conformance.mjs';
 
 const assetNamed = (part) => manifest.assets.find(({ file }) => file.includes(part));
@@ -293,4 +295,11 @@ describe('documents', () => {
       assert.equal((await failureOf(unpackGlb(bytes))).code, 'Document');
     }
   });
+});
+
+test('the core decodes the payload of the warm-up', async () => {
+  for (const name of Object.keys(DECODERS).filter((each) => each.includes('core'))) {
+    const decoder = new Decoder(await WebAssembly.compile(wasm(name)));
+    assert.equal(decoder.decodeSync(warmUpPayload()).pieces[0].parts[0].triangleCount, 442);
+  }
 });
