@@ -6,6 +6,7 @@ import { PayloadViews } from './views.mjs';
 import { preload, rarelyNeeded } from './threads.mjs';
 
 export { preload };
+export { loadWithPreview } from './babylon_preview.mjs';
 
 /**
  * Makes Babylon.js load KHR_mesh_collapse_compression. A payload that is damaged, or does not fit

@@ -11,9 +11,11 @@ import './support/peers.mjs';
 import { decodePayload, unpackGlb } from '../../lib/web/index.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
 import { refusesNegatives } from './support/loaders.mjs';
+import { blocksGlb, payloadsIn } from './support/blocks.mjs';
+import { binOf, withPreview } from './support/previews.mjs';
 import { convert, convertWithFallback, readSample } from './support/program.mjs';
 
-const { registerMeshCollapse } = await import('../../lib/web/babylon.mjs');
+const { loadWithPreview, registerMeshCollapse } = await import('../../lib/web/babylon.mjs');
 
 Logger.LogLevels = Logger.NoneLogLevel;
 const engine = new NullEngine();
@@ -78,4 +80,84 @@ test('Babylon.js loads what has a fallback without the fallback', async () => {
   const { glb } = convertWithFallback('torus');
   const [{ indices }] = await load(glb); // its .bin is nowhere
   assert.equal(indices.length, 3 * 4096);
+});
+
+test('Babylon.js keeps positions, joints and weights float with integers, also of a skinned mesh', async (context) => {
+  context.after(() => registerMeshCollapse());
+  registerMeshCollapse({ integers: true });
+  const scene = new Scene(engine);
+  const { meshes } = await LoadAssetContainerAsync(convert(readSample('skinned')), scene, { pluginExtension: '.glb' });
+  const [skinned] = meshes.filter(({ geometry }) => geometry);
+  const typesOf = (mesh) => Object.fromEntries(mesh.getVerticesDataKinds().map((kind) => [kind, mesh.getVertexBuffer(kind).type]));
+  const { position, normal, matricesWeights } = typesOf(skinned);
+  assert.deepEqual({ position, normal, matricesWeights }, { position: 5126, normal: 5122, matricesWeights: 5126 });
+  scene.dispose();
+});
+
+/** A preview before a model in blocks, which two nodes show. */
+const previewedGlb = (change = () => {}) => withPreview(blocksGlb('torus'), payloadsIn(convert(readSample('torus')))[0].bytes, (_, json) => {
+  json.nodes = [{ children: [1, 2], translation: [0, 0, 5] }, { mesh: 0, scale: [2, 2, 2] },
+    { mesh: 0, matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1] }];
+  json.scenes = [{ nodes: [0] }];
+  json.scene = 0;
+  json.materials = [{ pbrMetallicRoughness: { baseColorFactor: [0.25, 0.5, 0.75, 1], roughnessFactor: 0.5 }, doubleSided: true }];
+  json.meshes[0].primitives[0].material = 0;
+  change(json);
+});
+
+/** The corners of the box of each mesh, in the world. */
+const boxesOf = (meshes) => meshes.filter(({ geometry }) => geometry).map((mesh) => {
+  mesh.computeWorldMatrix(true);
+  const { minimumWorld, maximumWorld } = mesh.getBoundingInfo().boundingBox;
+  return [...minimumWorld.asArray(), ...maximumWorld.asArray()].map((value) => value.toFixed(4));
+}).sort();
+
+for (const isRightHanded of [false, true]) {
+  test(`Babylon.js shows a preview where the primitive will be, and blocks that replace it; right-handed: ${isRightHanded}`, async () => {
+    const scene = new Scene(engine);
+    scene.useRightHandedSystem = isRightHanded;
+    const told = [];
+    let [boxes, preview] = [];
+    const onPreview = (group, info) => {
+      told.push(info);
+      preview = group.getChildMeshes();
+      boxes = boxesOf(preview);
+      const [{ material, sideOrientation }] = preview;
+      assert.deepEqual(material.albedoColor.asArray(), [0.25, 0.5, 0.75]);
+      assert.deepEqual([material.backFaceCulling, material.roughness, material.metallic, sideOrientation], [false, 0.5, 1, isRightHanded ? 1 : 0]);
+      assert.equal(preview[0].getTotalIndices(), 3 * 4096);
+    };
+    const container = await loadWithPreview(previewedGlb(), scene, { onPreview });
+    assert.deepEqual(told, [{ index: 0, blockCount: 1, mesh: 0, primitive: 0 }]);
+    assert.deepEqual([scene.meshes.length, scene.materials.length, scene.transformNodes.length], [0, 0, 0], 'what was shown is gone');
+    container.addAllToScene();
+    assert.equal(boxes.length, 2);
+    assert.deepEqual(boxes, boxesOf(container.meshes));
+
+    const counts = [];
+    await loadWithPreview(previewedGlb(), scene, { onPreview, onBlock: (group, { index, blockCount }) => {
+      counts.push(group.getChildMeshes().length);
+      assert.equal(preview[0].isDisposed(), index === blockCount - 1);
+    } });
+    assert.ok(counts.length > 3);
+    assert.deepEqual(counts, counts.map((_, i) => 2 * (i + 1) + (i < counts.length - 1 ? 2 : 0)));
+    scene.dispose();
+  });
+}
+
+test('Babylon.js refuses damaged previews, and shows nothing of a load that ends early', async () => {
+  const scene = new Scene(engine);
+  const refuses = async (glb, options, error) => {
+    await assert.rejects(loadWithPreview(glb, scene, options), error);
+    assert.deepEqual([scene.meshes.length, scene.materials.length, scene.transformNodes.length], [0, 0, 0]);
+  };
+  const damaged = previewedGlb();
+  damaged[binOf(damaged) + 9] ^= 0x55;
+  await refuses(damaged, { onPreview: () => assert.fail('shows it') }, { name: 'MccError', message: /^\/bufferViews\// });
+  await refuses(previewedGlb((json) => { json.nodes[1].children = [0]; }), { onPreview() {} }, { message: '/nodes/0: is in the scene twice' });
+  await refuses(previewedGlb(), { onPreview() { throw new Error('mine'); } }, { message: 'mine' });
+  const controller = new AbortController();
+  await refuses(previewedGlb(), { onPreview: () => controller.abort(new Error('mine')), signal: controller.signal }, { message: 'mine' });
+  await refuses(new Uint8Array(), { onPreview: 7 }, { code: 'BadArgument' });
+  scene.dispose();
 });
