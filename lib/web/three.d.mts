@@ -21,8 +21,9 @@ export interface PluginOptions extends UnpackOptions {
   onBlock?: (geometry: any, info: BlockOfPrimitive) => void;
   /**
    * Makes quantised attributes integers, as KHR_mesh_quantization allows them. They take less memory on the graphics card. Positions become those
-   * of their lattice, whose place is added to that of the mesh (`position` and `scale`). Those stay float whose mesh has morph targets, a
-   * skin, instances or a volume, or is a node that is animated or has children; and so do weights and morph targets.
+   * of their lattice, whose place is added to that of the mesh (`position` and `scale`, or the `bindMatrix` of a skinned one, whose `bindMode` must
+   * stay as it is). Those stay float whose mesh has morph targets, instances or a volume, or is a node that is animated or has children; and so
+   * do weights and morph targets.
    */
   integers?: boolean;
 }

@@ -1,7 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Puts meshes whose positions are integers of a lattice where their floats would be, without more nodes: the lattice becomes part of the
-// mesh's own place. GLTFLoader makes one Mesh of a mesh with one primitive, which also is its node, else a Group of them.
+// mesh's own place, or of what comes before the joints of a skinned one. GLTFLoader makes one Mesh of a mesh with one primitive, which also
+// is its node, else a Group of them.
 import { makeIntegers } from './integers.mjs';
 
 /** Of what payloadsOf() has not checked. */
@@ -9,16 +10,19 @@ const listOf = (value) => (Array.isArray(value) ? value : []);
 
 /**
  * Lists the positions that must stay as they are: accessors of meshes whose place is not theirs alone, or means something else. These have
- * morph targets, skins, instances or a volume, or are a node that is animated or has children.
+ * morph targets, instances or a volume, or are a node that is animated or has children. Joints place a skinned mesh, whatever its node
+ * does, unless another node shows it without them.
  * @param {object} json a document that payloadsOf() has checked
  * @returns {Set<number>}
  */
 function fixedPositions({ meshes = [], nodes = [], materials = [], animations = [] }) {
   const targets = animations.flatMap(({ channels }) => listOf(channels)).map((channel) => channel?.target);
   const moved = new Set(targets.filter((target) => target?.path !== 'weights').map((target) => target?.node));
-  const isFixedNode = ({ mesh, skin, children, camera, extensions }, index) => skin !== undefined || extensions?.EXT_mesh_gpu_instancing !== undefined
-    || (listOf(meshes[mesh]?.primitives).length === 1 && (children?.length > 0 || camera !== undefined || extensions !== undefined
-      || moved.has(index) || moved.has(undefined))); // undefined: a pointer to anything
+  const skinned = new Set(nodes.filter(({ skin }) => skin !== undefined).map(({ mesh }) => mesh));
+  const isFixedNode = ({ mesh, skin, children, camera, extensions }, index) => extensions?.EXT_mesh_gpu_instancing !== undefined
+    || (skin === undefined && (skinned.has(mesh)
+      || (listOf(meshes[mesh]?.primitives).length === 1 && (children?.length > 0 || camera !== undefined || extensions !== undefined
+        || moved.has(index) || moved.has(undefined))))); // undefined: a pointer to anything
   const fixed = new Set(nodes.filter(isFixedNode).map(({ mesh }) => mesh));
   const hasVolume = ({ material }) => materials?.[material]?.extensions?.KHR_materials_volume !== undefined;
   const isFixed = ({ primitives }, index) => fixed.has(index)
@@ -32,7 +36,8 @@ export class IntegerMeshes {
   #fixed;
   /** Of positions that are integers, by accessor, see makeIntegers(). */
   #places = new Map();
-  #bounded = new WeakSet();
+  /** Of those positions, by geometry: nodes may show copies of meshes. */
+  #placed = new WeakMap();
 
   /** @param {import('three/addons/loaders/GLTFLoader.js').GLTFParser} parser whose lists are those of PayloadViews */
   constructor(parser) {
@@ -53,18 +58,19 @@ export class IntegerMeshes {
       const mesh = object.isGroup ? object.children[i] : object;
       if (place === undefined) continue;
       this.#bound(mesh.geometry, place);
-      putInto(mesh, place);
+      if (!mesh.isSkinnedMesh) putInto(mesh, place);
     }
     return object;
   }
 
   async loadNode(index) {
     const node = await this.#parser.loadNode(index);
-    const { mesh, matrix, translation = [0, 0, 0], scale = [1, 1, 1] } = this.#parser.json.nodes[index];
+    const { mesh, skin, matrix, translation = [0, 0, 0], scale = [1, 1, 1] } = this.#parser.json.nodes[index];
+    if (skin !== undefined) node.traverse((part) => part.isSkinnedMesh && bind(part, this.#placed.get(part.geometry)));
     const primitives = listOf(this.#parser.json.meshes?.[mesh]?.primitives);
     const place = primitives.length === 1 ? this.#places.get(primitives[0].attributes?.POSITION) : undefined;
     // A matrix came before the lattice. Other members of the place have taken that of the lattice away.
-    if (place !== undefined && node.isMesh && matrix === undefined) {
+    if (place !== undefined && node.isMesh && skin === undefined && matrix === undefined) {
       node.position.fromArray(translation);
       node.scale.fromArray(scale);
       putInto(node, place);
@@ -73,9 +79,11 @@ export class IntegerMeshes {
   }
 
   /** Bounds are those of the document, in its units. */
-  #bound(geometry, { step, origin }) {
-    if (this.#bounded.has(geometry) || geometry.boundingBox === null) return;
-    this.#bounded.add(geometry);
+  #bound(geometry, place) {
+    if (this.#placed.has(geometry)) return;
+    this.#placed.set(geometry, place);
+    if (geometry.boundingBox === null) return;
+    const { step, origin } = place;
     const { boundingBox: { min, max }, boundingSphere } = geometry;
     const offset = min.clone().fromArray(origin);
     for (const point of [min, max, boundingSphere.center]) point.sub(offset).divideScalar(step);
@@ -88,4 +96,9 @@ function putInto(object, { step, origin }) {
   const { position, quaternion, scale } = object;
   position.add(position.clone().fromArray(origin).multiply(scale).applyQuaternion(quaternion));
   scale.multiplyScalar(step);
+}
+
+/** The lattice comes before the inverse bind matrices, which meshes of one skeleton share; the mesh keeps its own inverse of the world. */
+function bind({ bindMatrix }, place) {
+  if (place !== undefined) bindMatrix.makeScale(place.step, place.step, place.step).setPosition(...place.origin);
 }

@@ -202,6 +202,34 @@ test('three.js keeps positions float where a lattice would move something else',
   assert.equal(await positionOf(several, convert(readSample('two_materials'))), 'Uint16Array', 'a group of primitives, with a child');
 });
 
+/** Morph targets would keep positions float. */
+const skinnedAlone = () => changed(convert(readSample('skinned')), (json) => {
+  const [{ primitives: [primitive] }] = json.meshes;
+  delete primitive.targets;
+  delete primitive.extensions.KHR_mesh_collapse_compression.targets;
+  delete json.meshes[0].weights;
+  delete json.animations;
+});
+
+test('three.js puts the lattice of a skinned mesh before its joints', async () => {
+  const glb = skinnedAlone();
+  const bent = changed(glb, ({ nodes, skins }) => {
+    Object.assign(nodes[skins[0].joints.at(-1)], { rotation: [0, 0, 0.6, 0.8] });
+    const skinned = nodes.find(({ skin }) => skin !== undefined);
+    Object.assign(skinned, { translation: [5, 5, 5] }); // means nothing
+    nodes.push({ ...skinned });
+    nodes[0].children = [...(nodes[0].children ?? []), nodes.length - 1];
+  });
+  for (const each of [glb, bent]) {
+    for (const { position, normal, skinIndex, skinWeight } of await loadBoth(each)) {
+      assert.deepEqual({ position, normal, skinWeight }, { position: 'Uint16Array', normal: 'Int16Array', skinWeight: 'Float32Array' });
+      assert.match(skinIndex, /^Uint(8|16)Array$/);
+    }
+  }
+  const both = changed(glb, ({ nodes }) => nodes.push({ mesh: 0 })); // which has no skin
+  assert.equal(typesOf(meshesOf(await load(both, { integers: true }))[0]).position, 'Float32Array');
+});
+
 test('three.js has one attribute for accessors with the same elements', async () => {
   const glb = changed(convert(readSample('two_materials')), (json) => {
     const [first] = json.meshes[0].primitives;

@@ -10,7 +10,7 @@ import { openPage } from './support/browser.mjs';
 import { coverageOf, differenceOf, readPicture, writePicture } from './support/pixels.mjs';
 import { useSite } from './support/site.mjs';
 
-const ALL = ['textured', 'skinned', 'morphed', 'materials', 'shared', 'integers', 'ordinary', 'lossless', 'instances'];
+const ALL = ['textured', 'skinned', 'tentacle', 'morphed', 'materials', 'shared', 'integers', 'ordinary', 'lossless', 'instances'];
 const WITH_SKINS_AND_TARGETS = ['textured', 'skinned', 'morphed', 'materials', 'integers'];
 const ENGINES = [
   { page: 'three', models: ALL, hasWorkers: true, without: /only 0.00 %/ },
@@ -97,6 +97,7 @@ for (const { engine, snippet, types, moved } of INTEGERS) {
       const integers = await uploads();
       assert.deepEqual(problemsOf(name, { picture, plain, source: plain }), []);
       if (name === 'textured') assert.deepEqual(integers.types, types);
+      if (name === 'tentacle') assert.equal(integers.types.position, types.position, 'of a skinned mesh');
       if (moved.includes(name)) assert.equal(integers.types.position, 'Float32Array', name);
       if (name === 'materials' && floats.bytes !== undefined) assert.ok(integers.bytes <= 0.67 * floats.bytes, `${integers.bytes} of ${floats.bytes} bytes`);
     }

@@ -2,13 +2,14 @@
 import { NodeIO } from '@gltf-transform/core';
 import { EXTMeshGPUInstancing } from '@gltf-transform/extensions';
 import { payloadsOf } from '../../../../lib/web/document.mjs';
-import { readGlb } from '../../../../lib/web/unpack.mjs';
+import { readGlb, writeGlb } from '../../../../lib/web/unpack.mjs';
 import { convert, decode, readSample } from '../../support/program.mjs';
 
 /** Models by name: where they come from, and how they are converted. */
 const MODELS = {
   textured: { make: () => readSample('textured') },
   skinned: { make: () => readSample('skinned') },
+  tentacle: { make: tentacle },
   morphed: { make: () => readSample('morphed') },
   materials: { make: () => readSample('two_materials') }, // several primitives
   shared: { make: () => readSample('shared_vertices') }, // several primitives on the same accessors
@@ -30,6 +31,16 @@ export async function makeModels() {
     models.set(name, source).set(`${name}.mcc`, compressed).set(`${name}.plain`, decode(compressed));
   }
   return models.set('damaged', damaged(models.get('textured.mcc')));
+}
+
+/** What is skinned, without its morph target. */
+function tentacle() {
+  const { json, chunks } = readGlb(readSample('skinned'));
+  const [mesh] = json.meshes;
+  delete mesh.primitives[0].targets;
+  delete mesh.weights;
+  delete json.animations;
+  return writeGlb(json, chunks);
 }
 
 /** A mesh that two nodes draw, one of them three times (EXT_mesh_gpu_instancing). */
