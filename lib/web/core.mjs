@@ -10,19 +10,19 @@ import { MccError } from './error.mjs';
  * Kinds of errors, indexed by number - 1: the name in the specification (A.1.4), and what is wrong
  * with the payload.
  */
-const ERRORS = [
-  ['Truncated', 'ends inside a field or a stream'],
-  ['BadMagic', 'is not a mesh collapse payload'],
-  ['UnsupportedVersion', 'is of a version of the format that this decoder does not know: compress its source again'],
-  ['BadChecksum', 'is damaged: its checksum does not match'],
-  ['BadHeader', 'has a malformed header'],
-  ['BadConnectivity', 'has malformed connectivity'],
-  ['BadStitch', 'has malformed stitching'],
-  ['BadAttribute', 'has a malformed attribute'],
-  ['TrailingBytes', 'has bytes left over after a stream'],
-  ['Limit', 'has more than the limits allow'],
-  ['OutOfMemory', 'needs more memory than is available'],
-];
+const ERRORS = Object.entries({
+  Truncated: 'ends inside a field or a stream',
+  BadMagic: 'is not a mesh collapse payload',
+  UnsupportedVersion: 'is of a version of the format that this decoder does not know: compress its source again',
+  BadChecksum: 'is damaged: its checksum does not match',
+  BadHeader: 'has a malformed header',
+  BadConnectivity: 'has malformed connectivity',
+  BadStitch: 'has malformed stitching',
+  BadAttribute: 'has a malformed attribute',
+  TrailingBytes: 'has bytes left over after a stream',
+  Limit: 'has more than the limits allow',
+  OutOfMemory: 'needs more memory than is available',
+});
 const OUT_OF_MEMORY = ERRORS.length;
 /** The error of the core alone, number 255, see format/decodes.h. */
 const NOT_IN_CORE = ['NotInCore', 'needs the whole decoder'];

@@ -1,24 +1,31 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Bytes as a text that can stand in a script. Brotli makes nearly as little of it as of the bytes, and of base64 a third more: frequent
-// bytes of WebAssembly are one character, and equal bytes always look the same.
+// Bytes as a text that can stand in a script. Brotli makes nearly as little of it as of the bytes, and of base64 a third more: the most
+// frequent bytes are one character, and equal bytes always look the same.
 
 /** The first characters of pairs; others are bytes by themselves. */
-const PAIRS = 3;
-const SINGLES = 82;
+const PAIRS = 4;
+const SINGLES = 81;
 const FIRST = 40;
 /** Characters that scripts would write in another way. */
 const [BACKSLASH, BACKTICK] = [92, 96];
-
-const numberOf = (code) => code - FIRST - (code > BACKSLASH ? 1 : 0) - (code > BACKTICK ? 1 : 0);
+/** How many bytes each of the first characters tells of: whether they are single. */
+const BITS = 6;
+const TOLD = Math.ceil(256 / BITS);
 
 /** @param {string} text of packText() */
 export function unpackText(text) {
+  const numberAt = (i) => {
+    const code = text.charCodeAt(i);
+    return code - FIRST - (code > BACKSLASH) - (code > BACKTICK);
+  };
+  const values = [[], []]; // of pairs and of single characters
+  for (let byte = 0; byte < 256; ++byte) values[(numberAt(byte / BITS) >> (byte % BITS)) & 1].push(byte);
   const bytes = new Uint8Array(text.length);
   let length = 0;
-  for (let i = 0; i < text.length; ++i) {
-    const number = numberOf(text.charCodeAt(i));
-    bytes[length++] = number < PAIRS ? SINGLES * (number + 1) + numberOf(text.charCodeAt(++i)) - PAIRS : number - PAIRS;
+  for (let i = TOLD; i < text.length; ++i) {
+    const number = numberAt(i);
+    bytes[length++] = number < PAIRS ? values[0][SINGLES * number + numberAt(++i) - PAIRS] : values[1][number - PAIRS];
   }
   return bytes.subarray(0, length);
 }
@@ -27,7 +34,16 @@ export function unpackText(text) {
 export function packText(bytes) {
   const codes = Array.from({ length: 2 ** 7 }, (_, code) => code).filter((code) => code >= FIRST && code !== BACKSLASH && code !== BACKTICK);
   const characters = codes.map((code) => String.fromCharCode(code));
-  const characterOf = (byte) => (byte < SINGLES ? characters[PAIRS + byte]
-    : characters[Math.floor(byte / SINGLES) - 1] + characters[PAIRS + (byte % SINGLES)]);
-  return Array.from(bytes, characterOf).join('');
+  const counts = new Array(256).fill(0);
+  for (const byte of bytes) ++counts[byte];
+  const values = [...counts.keys()];
+  const singles = new Set([...values].sort((a, b) => counts[b] - counts[a]).slice(0, SINGLES));
+  const texts = [];
+  for (const [i, byte] of values.filter((each) => singles.has(each)).entries()) texts[byte] = characters[PAIRS + i];
+  for (const [i, byte] of values.filter((each) => !singles.has(each)).entries()) {
+    texts[byte] = characters[Math.floor(i / SINGLES)] + characters[PAIRS + (i % SINGLES)];
+  }
+  const told = Array.from({ length: TOLD }, (_, i) => characters[values.slice(BITS * i, BITS * (i + 1))
+    .reduce((sum, byte, bit) => sum + (singles.has(byte) ? 2 ** bit : 0), 0)]);
+  return [...told, ...Array.from(bytes, (byte) => texts[byte])].join('');
 }

@@ -136,7 +136,9 @@ describe('package', () => {
       console.log(`gltf-mcc/${name}, minified, after brotli: ${await scriptBytes(exported, `gltf-mcc/${name}`)} bytes`);
     }
     console.log(`decodePayload(), minified, after brotli: ${await scriptBytes('decodePayload')} bytes`);
-    console.log(`and with the core inside: ${await scriptBytes('decodePayload', 'gltf-mcc/inline')} bytes`);
+    const inline = await scriptBytes('decodePayload', 'gltf-mcc/inline');
+    console.log(`and with the core inside: ${inline} bytes`);
+    assert.ok(inline <= 38_000, 'the script with the core has grown');
     const script = await scriptBytes('decodePayload, unpackGlb');
     console.log(`decodePayload() and unpackGlb(), minified, after brotli: ${script} bytes`);
     console.log(`and unpackTile(), minified, after brotli: ${await scriptBytes('decodePayload, unpackGlb, unpackTile')} bytes`);
@@ -153,5 +155,5 @@ describe('package', () => {
 
 /** Of one decoder and the script, after brotli: what they take today. The aim is 25,000 for the core. */
 const LARGEST_BYTES = {
-  mcc_decoder_core_simd: 43_700, mcc_decoder_core: 45_100, mcc_decoder_simd: 62_000, mcc_decoder: 67_100,
+  mcc_decoder_core_simd: 42_800, mcc_decoder_core: 44_000, mcc_decoder_simd: 62_000, mcc_decoder: 66_900,
 };

@@ -28,6 +28,7 @@ inline constexpr bool kPivots = kWhole;       ///< faces coded vertex by vertex
 inline constexpr bool kIsolated = kWhole;     ///< vertices without faces
 inline constexpr bool kListed = kWhole;       ///< duplicate and degenerate triangles
 inline constexpr bool kPlanes = kWhole;       ///< planes of positions
+inline constexpr bool kShear = kWhole;        ///< shear of positions, which only scans use
 inline constexpr bool kTangents = kWhole;     ///< tangents that are quantised
 inline constexpr bool kBlocks = kWhole;       ///< surfaces cut into blocks
 }  // namespace decodes

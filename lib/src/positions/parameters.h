@@ -29,9 +29,9 @@ struct PositionParameters {
 /// Sets the scale coefficients that the modes imply; the payload's tables may change them.
 inline void setUniversalScale(PositionParameters& p) {
   const uint32_t weighted = p.has(position_mode::kWeights) ? 1 : 0;
-  const uint32_t shear = p.has(position_mode::kShear) ? 1 : 0;
+  const auto& scale = (p.has(position_mode::kShear) ? kShearedScale : kUniversalScale)[weighted];
   for (uint32_t fan = 0; fan < 2; ++fan) {
-    for (uint32_t s = 0; s < 3; ++s) p.scale[fan][s] = kUniversalScale[weighted][shear][fan][s];
+    for (uint32_t s = 0; s < 3; ++s) p.scale[fan][s] = scale[fan][s];
   }
 }
 

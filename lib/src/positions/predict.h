@@ -273,7 +273,8 @@ MCC_INLINE void predictPlain(const PositionParameters& p, const PlainFan& f, con
     const bool select = (modes & position_mode::kSelect) != 0;
     out.at.fraction += fractionOf(weightPlainFeatures(p, f, *beyond, degree, select));
   }
-  if ((modes & (position_mode::kShear | position_mode::kPlanes)) != 0) out.normal = plainNormal(f);
+  if ((modes & kDecodedPositionModes & (position_mode::kShear | position_mode::kPlanes)) != 0)
+    out.normal = plainNormal(f);
 }
 
 /// The features of any other fan, relative to its first tip, or to its first neighbour if it has no

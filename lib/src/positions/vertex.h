@@ -155,7 +155,7 @@ class VertexCoder {
   template <class Fold>
   MCC_INLINE void codeInFileOrder(Io& io, uint32_t v, const FinePoint& at,
                                   const ScaleEstimate& scale, Fold fold) const {
-    if constexpr (kCompact) {
+    if constexpr (kCompact && decodes::kShear) {
       codeSlots(io, v, scale, Shift<bool, bool>{false, fold, kNoShear, at, {}});
     } else {
       codeSlots(io, v, scale, Shift<Fold, std::false_type>{{}, fold, kNoShear, at, {}});
@@ -251,8 +251,8 @@ template <class Fold, class Shears>
 MCC_CALLED_IF_SMALL void VertexCoder<Io, kModes>::codeSlots(
     Io& io, uint32_t v, const ScaleEstimate& scale, const Shift<Fold, Shears>& shift) const {
   const Fold fold = shift.fold;
-  const uint8_t* axis = shift.shear.axis;
-  const uint8_t* slot = shift.shear.slot;
+  const uint8_t* axis = decodes::kShear ? shift.shear.axis : kFileOrder;
+  const uint8_t* slot = decodes::kShear ? shift.shear.slot : kFileOrder;
   const Lanes<uint32_t> rounded = shift.at.fraction + 128;
   ResidualContexts c;
   findContexts(scale, rounded, has(position_mode::kSplit), fold, c);
