@@ -21,6 +21,10 @@ const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'applic
 const OURS = {
   files: 'mcc', imports: "import { registerMeshCollapse } from 'gltf-mcc/three';", setup: 'registerMeshCollapse(loader);',
 };
+const MESHOPT = {
+  files: 'meshopt', imports: "import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';",
+  setup: 'loader.setMeshoptDecoder(MeshoptDecoder);',
+};
 const APPLICATIONS = {
   plain: { files: 'plain', imports: '', setup: '' },
   ours: OURS,
@@ -34,11 +38,9 @@ const APPLICATIONS = {
     imports: "import { DRACOLoader } from 'three/addons/loaders/DRACOLoader.js';",
     setup: "loader.setDRACOLoader(new DRACOLoader().setDecoderPath('/draco/').preload());",
   },
-  meshopt: {
-    files: 'meshopt',
-    imports: "import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';",
-    setup: 'loader.setMeshoptDecoder(MeshoptDecoder);',
-  },
+  meshopt: MESHOPT,
+  'meshopt-cz': { ...MESHOPT, files: 'meshopt-cz' },
+  transform: { ...MESHOPT, files: 'transform' },
 };
 /** Of lib/web before the function above was there. */
 const OTHER = {
@@ -46,6 +48,11 @@ const OTHER = {
   setup: 'loader.register((parser) => new MeshCollapsePlugin(parser));',
 };
 export const CODECS = Object.keys(APPLICATIONS);
+
+/** What other tools make, by the name of the files. */
+const TOOLS = { draco: 'transform draco 5', meshopt: 'gltfpack -cc', 'meshopt-cz': 'gltfpack -cz', transform: 'transform meshopt' };
+/** What ours makes. */
+const OPTIONS = { mcc: [], preview: ['--preview'] };
 
 const scriptOf = ({ imports, setup, load = 'loader.loadAsync(url)' }) => `
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
@@ -91,10 +98,11 @@ export async function makeSite(paths, work, codecs, other, say) {
   for (const path of paths) {
     say(`compressing ${basename(path)}`);
     const source = new Uint8Array(readFileSync(path));
-    const theirs = await wholeFiles(path, ['gltfpack -cc', 'transform draco 5']);
-    const previewed = codecs.includes('preview') ? { preview: convert(source, ['--preview']) } : {};
-    const files = { ...previewed, plain: source, mcc: convert(source), draco: theirs.get('transform draco 5'), meshopt: theirs.get('gltfpack -cc') };
-    for (const [codec, bytes] of Object.entries(files)) await add(`/models/${codec}/${basename(path)}`, bytes);
+    const kinds = new Set(applications.map(([, { files }]) => files));
+    const theirs = await wholeFiles(path, Object.keys(TOOLS).filter((kind) => kinds.has(kind)).map((kind) => TOOLS[kind]));
+    for (const kind of kinds) {
+      await add(`/models/${kind}/${basename(path)}`, theirs.get(TOOLS[kind]) ?? (kind in OPTIONS ? convert(source, OPTIONS[kind]) : source));
+    }
   }
   return { contents, codecs: new Map(applications.map(([name, { files }]) => [name, files])) };
 }
@@ -114,7 +122,7 @@ async function serve(contents) {
 /**
  * @param site of makeSite()
  * @param {Record<string, string[]>} models names of files that are loaded together, by the name of their row
- * @param {Record<string, { bitsPerSecond: number, roundTripMs: number }>} links
+ * @param {Record<string, { bitsPerSecond: number, roundTripMs: number } | undefined>} links undefined: the server itself
  * @returns {Promise<object>} { [link]: { [row]: { [codec]: median of milliseconds } } }; for the codec `preview` until the first preview
  *   is there, undefined if there is none
  */
@@ -124,7 +132,7 @@ export async function measureLoads({ contents, codecs }, models, links, runs, sa
   const results = {};
   try {
     for (const [name, speed] of Object.entries(links)) {
-      const link = await startLink(server.port, speed);
+      const link = speed ? await startLink(server.port, speed) : { origin: `http://127.0.0.1:${server.port}`, close() {} };
       results[name] = {};
       for (const [row, files] of Object.entries(models)) {
         say(`${name}, ${row}`);
