@@ -34,7 +34,9 @@ static_assert(FLT_EVAL_METHOD == 0,
 }  // namespace mcc
 
 /// For the few functions of inner loops that compilers would rather call, for what must not be
-/// inlined there, and for loops over the three components, which gcc keeps as loops at -O2.
+/// inlined there, and for loops over the three components, which gcc keeps as loops at -O2. With
+/// MCC_CALLS functions are called unless the compiler thinks otherwise, which takes half of the time
+/// to compile.
 #if defined(MCC_PORTABLE)
 #if defined(_MSC_VER)
 #define MCC_INLINE __forceinline
@@ -47,8 +49,13 @@ static_assert(FLT_EVAL_METHOD == 0,
 #define MCC_PREFETCH(address) static_cast<void>(address)
 #define MCC_UNROLL
 #else
+#if defined(MCC_CALLS)
+#define MCC_INLINE inline
+#define MCC_INLINE_LAMBDA
+#else
 #define MCC_INLINE inline __attribute__((always_inline))
 #define MCC_INLINE_LAMBDA __attribute__((always_inline))
+#endif
 #define MCC_OUT_OF_LINE __attribute__((noinline))
 #if defined(__wasm__)  // has no such instruction, but would still compute the address
 #define MCC_PREFETCH(address) static_cast<void>(address)
