@@ -1,8 +1,8 @@
 # Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 """What tools/release says about the packages that it makes. In a tree where all of them were built:
 
-inventory.py notices BUILD       the licences of others whose code the compiler or the linker has put into what was built in BUILD
-inventory.py files PACKAGE...    the files inside of packages
+inventory.py notices BUILD         the licences of others whose code or headers what was built in BUILD was made of
+inventory.py files PACKAGE...      the files inside of packages
 inventory.py spdx NAME PACKAGE...  an SPDX document of packages and of what of others they hold or are linked to
 
 Whose code that is, is not written down here but found: headers by ninja's record of what was read, shared libraries by the programs'
@@ -77,7 +77,7 @@ def compiled_in(build, folders=""):
 def notices(build):
     """Returns the texts of the licences of what is compiled in, one for each source."""
     sources = {source: (package, version) for package, source, version in compiled_in(build)}
-    return "".join(f"\n{'=' * 80}\nThis package holds code of {source} {version}:\n\n"
+    return "".join(f"\n{'=' * 80}\nMade with code or headers of {source} {version}:\n\n"
                    + Path(f"/usr/share/doc/{package}/copyright").read_text()
                    for source, (package, version) in sorted(sources.items()))
 
@@ -126,42 +126,53 @@ def holds(package):
 
 
 def described(identifier, name, version, licence, **more):
+    """Returns a package as SPDX describes it."""
     return {"SPDXID": identifier, "name": name, "versionInfo": version, "downloadLocation": "NOASSERTION", "filesAnalyzed": False,
-            "licenseConcluded": licence, "licenseDeclared": licence, "copyrightText": "NOASSERTION", **more}
+            "licenseDeclared": licence, "licenseConcluded": licence, "copyrightText": "NOASSERTION", **more}
+
+
+def relations_of(package):
+    """Returns how a package of ours is related to others: their sources, versions, and the word of SPDX."""
+    if package.name.endswith(".tar.gz"):
+        return {}
+    with tempfile.TemporaryDirectory() as folder:
+        linked = linked_to(unpacked(package, folder))
+    relations = {**{entry[1:]: "STATIC_LINK" for entry in holds(package)}, **{entry[1:]: "DYNAMIC_LINK" for entry in linked}}
+    unknown = sorted({source for source, _ in relations} - set(LICENCES))
+    if unknown:
+        sys.exit(f"tools/release: tools/release.d/inventory.py lacks the licence of {', '.join(unknown)}")
+    return relations
 
 
 def spdx(name, packages):
     version = name[len("gltf-mcc-"):]
     time = datetime.datetime.fromtimestamp(int(os.environ["SOURCE_DATE_EPOCH"]), datetime.timezone.utc)
-    described_packages, others, relations = [], {}, []
+    listed, others, relations = [], {}, []
     for package in map(Path, packages):
         identifier = f"SPDXRef-{re.sub('[^A-Za-z0-9.]', '-', package.name)}"
-        digest = hashlib.sha256(package.read_bytes()).hexdigest()
-        is_source = package.name.endswith(".tar.gz")
-        described_packages.append(described(
-            identifier, package.name, version, f"{OURS} AND CC-BY-4.0" if is_source else OURS, packageFileName=package.name,
-            supplier="Organization: The gltf-mcc authors", checksums=[{"algorithm": "SHA256", "checksumValue": digest}]))
+        licences = {f"{OURS} AND CC-BY-4.0" if package.name.endswith(".tar.gz") else OURS}
         relations.append(("SPDXRef-DOCUMENT", "DESCRIBES", identifier))
-        with tempfile.TemporaryDirectory() as folder:
-            links = {} if is_source else {entry[1:]: "DYNAMIC_LINK" for entry in linked_to(unpacked(package, folder))}
-        for other in {**{entry[1:]: "STATIC_LINK" for entry in holds(package)}, **links}.items():
-            (source, source_version), relation = other
-            others[f"SPDXRef-Debian-{source}"] = source, source_version
-            relations.append((identifier, relation, f"SPDXRef-Debian-{source}"))
-    unknown = sorted({source for source, _ in others.values()} - set(LICENCES))
-    if unknown:
-        sys.exit(f"tools/release: tools/release.d/inventory.py lacks the licence of {', '.join(unknown)}")
+        for (source, source_version), relation in relations_of(package).items():
+            other = f"SPDXRef-Debian-{source}"
+            others[other] = source, source_version
+            relations.append((identifier, relation, other))
+            if relation == "STATIC_LINK":
+                licences.add(LICENCES[source])
+        listed.append(described(
+            identifier, package.name, version, " AND ".join(sorted(licences)), packageFileName=package.name,
+            supplier="Organization: The gltf-mcc authors",
+            checksums=[{"algorithm": "SHA256", "checksumValue": hashlib.sha256(package.read_bytes()).hexdigest()}]))
     for identifier, (source, source_version) in sorted(others.items()):
         url = f"pkg:deb/debian/{source}@{source_version.replace(':', '%3A').replace('+', '%2B')}?arch=source&distro=bookworm"
-        described_packages.append(described(identifier, source, source_version, LICENCES[source], externalRefs=[
+        listed.append(described(identifier, source, source_version, LICENCES[source], externalRefs=[
             {"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl", "referenceLocator": url}]))
     return json.dumps({
         "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": name,
         # Unique, as it has to be: the same name stands for the same packages only.
-        "documentNamespace": f"urn:gltf-mcc:spdx:{hashlib.sha256(str(described_packages).encode()).hexdigest()}",
+        "documentNamespace": f"urn:gltf-mcc:spdx:{hashlib.sha256(str(listed).encode()).hexdigest()}",
         "creationInfo": {"created": time.strftime("%Y-%m-%dT%H:%M:%SZ"),
                          "creators": ["Organization: The gltf-mcc authors", f"Tool: gltf-mcc-tools/release-{version}"]},
-        "packages": described_packages,
+        "packages": listed,
         "relationships": [{"spdxElementId": a, "relationshipType": kind, "relatedSpdxElement": b} for a, kind, b in sorted(relations)],
     }, indent=1) + "\n"
 
