@@ -1,7 +1,7 @@
 # Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #
 # Debian packages by `cpack -G DEB` in a build folder: the tool, the shared libraries, and what it takes
-# to compile against them. tools/check/deb makes and tries them.
+# to compile against them. tools/release makes them, tools/check/deb tries them.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME gltf-mcc)
 set(CPACK_PACKAGE_VENDOR "The gltf-mcc authors")

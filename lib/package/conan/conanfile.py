@@ -10,7 +10,7 @@ from conan.tools.files import copy, rmdir, unzip
 
 class GltfMccConan(ConanFile):
     name = "gltf-mcc"
-    version = "1.0.0-rc.1"
+    version = "1.0.0"
     description = "KHR_mesh_collapse_compression for glTF 2.0: reader, writer, and whole documents"
     license = "Apache-2.0"
     topics = ("glTF", "mesh", "compression")

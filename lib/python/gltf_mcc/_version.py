@@ -1,3 +1,3 @@
 # Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 """The version of the package; CHANGELOG.md says what versions mean."""
-VERSION = "1.0.0rc1"
+VERSION = "1.0.0"
