@@ -1513,6 +1513,14 @@ std::vector<Source> boundarySources() {
   all.push_back(all.back());
   all.back().name += "_2";
   all.back().options.variation = 2;
+  all.push_back(single("small_faces", "tangents in faces whose normals are a few units long",
+                       sphereOfFaces(), [](SourceBuilder& b) {
+                         b.positions(3);
+                         b.normals(5);
+                         b.floats("TEXCOORD_0", kBase, "VEC2", 7,
+                                  [](const Place& at, uint32_t c) { return at.position(c); });
+                         tangentsOfFaces(b, 8);
+                       }));
   for (Source& source : all) {
     source.name = "boundaries_" + source.name;
     source.shows = "Boundaries of rules: " + source.shows;
