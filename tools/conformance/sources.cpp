@@ -1513,14 +1513,15 @@ std::vector<Source> boundarySources() {
   all.push_back(all.back());
   all.back().name += "_2";
   all.back().options.variation = 2;
-  all.push_back(single("small_faces", "tangents in faces whose normals are a few units long",
+  all.push_back(single("small_faces", "tangents in faces whose normals are a unit long",
                        sphereOfFaces(), [](SourceBuilder& b) {
-                         b.positions(3);
+                         b.positions(1);
                          b.normals(5);
                          b.floats("TEXCOORD_0", kBase, "VEC2", 7,
                                   [](const Place& at, uint32_t c) { return at.position(c); });
                          tangentsOfFaces(b, 8);
                        }));
+  all.back().options.variation = 2;  // which lie in faces
   for (Source& source : all) {
     source.name = "boundaries_" + source.name;
     source.shows = "Boundaries of rules: " + source.shows;
