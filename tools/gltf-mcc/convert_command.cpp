@@ -132,7 +132,8 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
         readDocumentFiles(gltf::pathOf(converted.input), !isGltf(converted.output));
     input_size = measure("input", [held = std::move(contents)]() { return held; });
   }
-  result = compared.begin(source.source(), converted.output, convert);
+  result =
+      compared.begin(source.source(), converted.output, convert, compares_size || compared.is_full);
   if (!result.ok()) return result;
   gltf::FilesInUse used;
   {

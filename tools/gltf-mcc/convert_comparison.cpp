@@ -24,8 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files with more triangles than this are compared only when the user asks for it.
+/// Files with more triangles or bytes than this are compared only when the user asks for it: that
+/// takes time, and memory for a second copy of the file.
 constexpr uint64_t kComparedTriangles = 2'000'000;
+constexpr uint64_t kComparedMebibytes = 256;
 constexpr uint32_t kRuns = 3;
 
 using Primitives = std::set<std::pair<uint32_t, uint32_t>>;
@@ -49,6 +51,12 @@ bench::PrimitiveFilter filterOf(const Primitives& primitives) {
   return [&primitives](uint32_t mesh, uint32_t primitive) {
     return primitives.count({mesh, primitive}) != 0;
   };
+}
+
+bool isLarge(const gltf::Source& input) {
+  std::error_code code;
+  const uintmax_t bytes = input.bytes ? input.bytes->size() : fs::file_size(input.path, code);
+  return !code && bytes > kComparedMebibytes << 20;
 }
 
 /// Returns 0 where Draco fails.
@@ -123,14 +131,20 @@ void ConvertComparison::beginSize(const gltf::Source& input, const gltf::Convert
 
 void ConvertComparison::addOptions(Command& command) {
   command.addWords("--compare", mode, {"draco", "none"},
-                   "Compare with Draco [draco, but none above 2M triangles]");
+                   "Compare with Draco [draco, but not above 2M triangles or 256 MiB]");
   command.add("--emit-draco", "OUT2", &draco_output,
               "Also write IN with Draco, speed 0, to this .glb");
 }
 
 gltf::Result ConvertComparison::begin(const gltf::Source& input, const std::string& output,
-                                      const gltf::ConvertOptions& convert) {
-  if (mode == "none" && draco_output.empty()) return {};
+                                      const gltf::ConvertOptions& convert, bool is_shown) {
+  if (mode.empty() && isLarge(input)) {
+    if (is_shown)
+      notes += fmt::format("note: not compared with Draco above {} MiB; use --compare draco\n",
+                           kComparedMebibytes);
+    mode = "none";
+  }
+  if ((mode == "none" || !is_shown) && draco_output.empty()) return {};
   gltf::Result result;
   if (input.bytes) {
     source.assign(input.bytes->begin(), input.bytes->end());
@@ -216,7 +230,7 @@ namespace mcc::tool {
 void ConvertComparison::addOptions(Command&) {}
 
 gltf::Result ConvertComparison::begin(const gltf::Source&, const std::string&,
-                                      const gltf::ConvertOptions&) {
+                                      const gltf::ConvertOptions&, bool) {
   return {};
 }
 

@@ -38,10 +38,10 @@ struct ConvertComparison {
   bool is_full = false;
 
   void addOptions(Command& command);
-  /// Called before the conversion: reads the source, makes the Draco file, and checks that it can
-  /// be written.
+  /// Called before the conversion: reads the source if it will be compared, makes the Draco file,
+  /// and checks that it can be written. `is_shown`: whether anybody will see Draco's size.
   gltf::Result begin(const gltf::Source& input, const std::string& output,
-                     const gltf::ConvertOptions& convert);
+                     const gltf::ConvertOptions& convert, bool is_shown);
   /// Called when everything is encoded and `report` lists the primitives: starts to measure Draco's
   /// size on a thread of its own.
   void beginSize(const gltf::Source& input, const gltf::ConvertOptions& convert,
