@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "cli/run_tool.h"
 #include "gltf/round_trip.h"
@@ -49,6 +50,28 @@ class ConvertOutput : public testing::Test {
   const mcc::test::ScratchFolder scratch_;
   const fs::path folder_ = scratch_.path();
 };
+
+/// The comparison holds a copy of the file, which may not be large unless somebody asks for it.
+TEST_F(ConvertOutput, LargeFilesAreNotComparedWithDraco) {
+  constexpr uint32_t kBytes = 257u << 20;
+  Builder builder;
+  builder.addMesh({Sheet(12).addTo(builder)});
+  builder.json["buffers"] = {{{"byteLength", kBytes}}};
+  std::vector<uint8_t> file = fileOf(builder);
+  const size_t bin_at = file.size() - (builder.bin.size() + 3) / 4 * 4;
+  const uint32_t file_bytes = static_cast<uint32_t>(bin_at) + kBytes;
+  std::memcpy(&file[8], &file_bytes, 4);
+  std::memcpy(&file[bin_at - 8], &kBytes, 4);
+  store("large.glb", file);
+  fs::resize_file(folder_ / "large.glb", file_bytes);
+  const Outcome result = run("convert large.glb out.glb");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string note = "not compared with Draco above 256 MiB";
+  EXPECT_NE((result.out + result.err).find(note), std::string::npos) << result.out;
+  EXPECT_EQ(lineOf(result.out, "Draco"), "");
+  const Outcome quiet = run("convert --quiet large.glb out.glb");
+  EXPECT_EQ(quiet.out + quiet.err, "");
+}
 
 TEST_F(ConvertOutput, IsAboutTheFileAndNotAboutTheCodec) {
   const Outcome result = run("convert " + samplePath("genus3.glb") + " out.glb");
