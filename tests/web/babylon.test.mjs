@@ -11,8 +11,7 @@ import './support/peers.mjs';
 import { decodePayload, unpackGlb } from '../../lib/web/index.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
 import { refusesNegatives } from './support/loaders.mjs';
-import { blocksGlb, payloadsIn } from './support/blocks.mjs';
-import { binOf, withPreview } from './support/previews.mjs';
+import { binOf, previewedGlb } from './support/previews.mjs';
 import { convert, convertWithFallback, readSample } from './support/program.mjs';
 
 const { loadWithPreview, registerMeshCollapse } = await import('../../lib/web/babylon.mjs');
@@ -92,17 +91,6 @@ test('Babylon.js keeps positions, joints and weights float with integers, also o
   const { position, normal, matricesWeights } = typesOf(skinned);
   assert.deepEqual({ position, normal, matricesWeights }, { position: 5126, normal: 5122, matricesWeights: 5126 });
   scene.dispose();
-});
-
-/** A preview before a model in blocks, which two nodes show. */
-const previewedGlb = (change = () => {}) => withPreview(blocksGlb('torus'), payloadsIn(convert(readSample('torus')))[0].bytes, (_, json) => {
-  json.nodes = [{ children: [1, 2], translation: [0, 0, 5] }, { mesh: 0, scale: [2, 2, 2] },
-    { mesh: 0, matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1] }];
-  json.scenes = [{ nodes: [0] }];
-  json.scene = 0;
-  json.materials = [{ pbrMetallicRoughness: { baseColorFactor: [0.25, 0.5, 0.75, 1], roughnessFactor: 0.5 }, doubleSided: true }];
-  json.meshes[0].primitives[0].material = 0;
-  change(json);
 });
 
 /** The corners of the box of each mesh, in the world. */

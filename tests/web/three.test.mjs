@@ -6,10 +6,10 @@ import { Box3, DoubleSide, Group, Scene, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { createDecoderPool, decodePayload } from '../../lib/web/index.mjs';
 import { readGlb, writeGlb } from '../../lib/web/unpack.mjs';
-import { blocksGlb, payloadsIn, trianglesOf, trianglesOfBlocks } from './support/blocks.mjs';
+import { blocksGlb, trianglesOf, trianglesOfBlocks } from './support/blocks.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
 import { compareWithManifest, refusesNegatives } from './support/loaders.mjs';
-import { binOf, withPreview } from './support/previews.mjs';
+import { binOf, previewedGlb } from './support/previews.mjs';
 import { convert, convertWithFallback, readSample } from './support/program.mjs';
 
 const { loadWithPreview, MeshCollapsePlugin, registerMeshCollapse } = await import('../../lib/web/three.mjs');
@@ -244,19 +244,6 @@ test('three.js has one attribute for accessors with the same elements', async ()
   const same = all.filter(({ attributes }) => attributes.position === first.attributes.position && attributes.normal === first.attributes.normal);
   assert.ok(same.length > 1 && same.includes(all.at(-1)));
 });
-
-/** A preview, which two nodes show, before a model in blocks. */
-function previewedGlb(change = () => {}) {
-  return withPreview(blocksGlb('torus'), payloadsIn(convert(readSample('torus')))[0].bytes, (object, json) => {
-    json.nodes = [{ children: [1, 2], translation: [0, 0, 5] }, { mesh: 0, scale: [2, 2, 2] },
-      { mesh: 0, matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1] }];
-    json.scenes = [{ nodes: [0] }];
-    json.scene = 0;
-    json.materials = [{ pbrMetallicRoughness: { baseColorFactor: [0.25, 0.5, 0.75, 1], roughnessFactor: 0.5 }, doubleSided: true }];
-    json.meshes[0].primitives[0].material = 0;
-    change(json);
-  });
-}
 
 const placeOf = (glb) => `data:model/gltf-binary;base64,${Buffer.from(glb).toString('base64')}`;
 const loadShown = (glb, options) => loadWithPreview(registerMeshCollapse(new GLTFLoader()), placeOf(glb), options);

@@ -1,6 +1,8 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 import { EXTENSION_NAME } from '../../../lib/web/index.mjs';
 import { readGlb } from '../../../lib/web/unpack.mjs';
+import { blocksGlb, payloadsIn } from './blocks.mjs';
+import { convert, readSample } from './program.mjs';
 
 /**
  * Puts a preview in front of what a GLB with one mesh holds, because samples are too small for previews.
@@ -31,6 +33,23 @@ export function withPreview(file, bytes, change = () => {}) {
   result.set(bytes, binAt);
   result.set(data, binAt + moved);
   return result;
+}
+
+/**
+ * A preview, which two nodes show, before a model in blocks.
+ *
+ * @param {(json: object) => void} [change] gets the document
+ */
+export function previewedGlb(change = () => {}) {
+  return withPreview(blocksGlb('torus'), payloadsIn(convert(readSample('torus')))[0].bytes, (_, json) => {
+    json.nodes = [{ children: [1, 2], translation: [0, 0, 5] }, { mesh: 0, scale: [2, 2, 2] },
+      { mesh: 0, matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1] }];
+    json.scenes = [{ nodes: [0] }];
+    json.scene = 0;
+    json.materials = [{ pbrMetallicRoughness: { baseColorFactor: [0.25, 0.5, 0.75, 1], roughnessFactor: 0.5 }, doubleSided: true }];
+    json.meshes[0].primitives[0].material = 0;
+    change(json);
+  });
 }
 
 /** Where the bytes of the BIN chunk begin in a GLB. */
