@@ -4,7 +4,9 @@
 #ifndef MCC_TESTS_CLI_RUN_TOOL_H_
 #define MCC_TESTS_CLI_RUN_TOOL_H_
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -60,6 +62,21 @@ inline ToolResult runTool(const ScratchFolder& folder, const std::string& argume
   if (chdir(folder.path().c_str()) == 0) execv(program.c_str(), words.data());
 #endif
   _exit(127);
+}
+
+/// Runs the tool and returns the most memory it took, in MB.
+inline double memoryOf(const ScratchFolder& folder, const std::vector<std::string>& arguments) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const int nowhere = open("/dev/null", O_RDWR);
+    for (const int stream : {0, 1}) dup2(nowhere, stream);
+    becomeTool(folder, arguments);
+  }
+  int code = 0;
+  struct rusage usage = {};
+  wait4(child, &code, 0, &usage);
+  EXPECT_TRUE(WIFEXITED(code) && WEXITSTATUS(code) == 0);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
 inline std::string samplePath(const std::string& name) {

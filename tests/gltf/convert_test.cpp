@@ -11,7 +11,10 @@
 
 #include "gltf/check/compare.h"
 #include "gltf/document/references.h"
+#include "gltf/files/file_io.h"
 #include "gltf/round_trip.h"
+#include "mcc/files.h"
+#include "support/scratch_folder.h"
 
 namespace mcc::gltf::test {
 namespace {
@@ -1354,6 +1357,37 @@ TEST(ConvertErrors, WhatCannotBeCodedIsLeftAlone) {
               j["meshes"][0]["primitives"][0]["indices"] = 4;
             }).find("no bytes in the file"),
             std::string::npos);
+}
+
+/// The files next to it are read as if the path alone had been given, and the file itself is not.
+TEST(Convert, BytesOfAFileStandForIt) {
+  Builder builder;
+  builder.addMesh({Sheet(30).addTo(builder)});
+  const std::vector<uint8_t> source = builder.toGlb();
+  const mcc::test::ScratchFolder folder;
+  const std::filesystem::path path = folder.path() / "a.gltf";
+  ConvertReport report;
+  ASSERT_EQ(convert({"in.glb", source}, {path}, {}, report).message(), "");
+  std::vector<uint8_t> expected;
+  FilesInUse expected_files;
+  DecodeReport decoded;
+  ASSERT_EQ(decode({path, {}}, {{}, &expected}, decoded, {}, &expected_files).message(), "");
+  ASSERT_EQ(expected_files.input.size(), 2u);
+
+  std::vector<uint8_t> bytes;
+  ASSERT_TRUE(readFile(path, bytes).ok());
+  std::filesystem::remove(path);
+  std::vector<uint8_t> output;
+  FilesInUse files;
+  EXPECT_FALSE(decode({path, bytes}, {{}, &output}, decoded).ok());
+  ASSERT_EQ(decode({path, bytes, true}, {{}, &output}, decoded, {}, &files).message(), "");
+  EXPECT_EQ(output, expected);
+  EXPECT_EQ(files.input, expected_files.input);
+  ASSERT_EQ(convert({path, bytes, true}, {{}, &output}, {}, report, &files).message(), "");
+  EXPECT_EQ(files.input, expected_files.input);
+  ValidationReport validation;
+  ASSERT_EQ(validate({path, bytes, true}, {}, validation).message(), "");
+  EXPECT_TRUE(validation.isValid());
 }
 
 }  // namespace

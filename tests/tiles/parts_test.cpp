@@ -3,7 +3,6 @@
 // Tilesets that several machines make in parts, and runs that must not meet.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <atomic>
@@ -196,21 +195,6 @@ TEST_F(TileParts, OfTwoRunsThatBeginTogetherOneWorks) {
     const char* names[] = {".gltf-mcc-tiles.1-of-2.jsonl", ".gltf-mcc-tiles.2-of-3.jsonl"};
     EXPECT_TRUE(of_loser.take(output / names[is_open[0] ? 1 : 0]));
   }
-}
-
-/// Runs the tool and returns the most memory it took, in MB.
-double memoryOf(const ScratchFolder& folder, const std::vector<std::string>& arguments) {
-  const pid_t child = fork();
-  if (child == 0) {
-    const int nowhere = open("/dev/null", O_RDWR);
-    for (const int stream : {0, 1}) dup2(nowhere, stream);
-    becomeTool(folder, arguments);
-  }
-  int code = 0;
-  struct rusage usage = {};
-  wait4(child, &code, 0, &usage);
-  EXPECT_TRUE(WIFEXITED(code) && WEXITSTATUS(code) == 0);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
 /// A million tiles in one file, of which few have contents, and 1.4 million implicit ones.

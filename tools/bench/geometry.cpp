@@ -44,10 +44,10 @@ void addInputs(Geometry& geometry) {
   }
 }
 
-gltf::Result load(const std::filesystem::path& path, const gltf::ConvertOptions& options,
-                  const PrimitiveFilter& wanted, OurPayloads ours, Geometry& geometry) {
-  MCC_GLTF_TRY(
-      gltf::loadDocument(geometry.file, gltf::readerOf(path.parent_path()), geometry.document));
+gltf::Result load(const std::filesystem::path& path, std::span<const uint8_t> file,
+                  const gltf::ConvertOptions& options, const PrimitiveFilter& wanted,
+                  OurPayloads ours, Geometry& geometry) {
+  MCC_GLTF_TRY(gltf::loadDocument(file, gltf::readerOf(path.parent_path()), geometry.document));
   gltf::Result refused;
   MCC_GLTF_TRY(gltf::decodeViews(options.decoders, geometry.document, nullptr, &refused));
   MCC_GLTF_TRY(gltf::decodeMeshes(options.decoders, geometry.document, &refused));
@@ -73,12 +73,11 @@ gltf::Result load(const std::filesystem::path& path, const gltf::ConvertOptions&
 
 }  // namespace
 
-gltf::Result loadGeometry(const std::filesystem::path& path, std::vector<uint8_t> file,
+gltf::Result loadGeometry(const std::filesystem::path& path, std::span<const uint8_t> file,
                           const gltf::ConvertOptions& options, const PrimitiveFilter& wanted,
                           Geometry& geometry, OurPayloads ours) {
-  geometry.file = std::move(file);
   gltf::Result result =
-      gltf::guarded([&]() { return load(path, options, wanted, ours, geometry); });
+      gltf::guarded([&]() { return load(path, file, options, wanted, ours, geometry); });
   if (!result.ok()) {
     result.where = path.string() + (result.where.empty() ? "" : ": " + result.where);
   }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,7 @@ struct Geometry {
   Geometry(const Geometry&) = delete;  // the views point into the members
   Geometry& operator=(const Geometry&) = delete;
 
-  std::vector<uint8_t> file;
+  std::vector<uint8_t> file;  ///< what `document` borrows, unless somebody else has it
   gltf::Document document;
   /// Everything as `convert` codes it, left-out attributes too.
   std::vector<gltf::EncodedPayload> payloads;
@@ -64,14 +65,14 @@ enum class OurPayloads : uint8_t { kEncoded, kLeftOut };
 
 /// Quantises and encodes a file as `convert` does, but keeps payloads that gain nothing.
 /// path    names the file in messages; the buffers of a .gltf are next to it.
-/// file    its bytes, see gltf::readFile().
+/// file    its bytes, see gltf::readFile(); `geometry` borrows them.
 /// wanted  null: all triangle primitives. A primitive counts once however often it is used; those
 ///         with the same attributes share a piece, those with the same indices too are one.
 /// ours    when they are left out, Geometry::payloads has plans without results, and vertex_count
 ///         stays 0.
 /// Errors: as convertFile(). A file without triangle primitives is not an error; `inputs` is then
 /// empty.
-gltf::Result loadGeometry(const std::filesystem::path& path, std::vector<uint8_t> file,
+gltf::Result loadGeometry(const std::filesystem::path& path, std::span<const uint8_t> file,
                           const gltf::ConvertOptions& options, const PrimitiveFilter& wanted,
                           Geometry& geometry, OurPayloads ours = OurPayloads::kEncoded);
 

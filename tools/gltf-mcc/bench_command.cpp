@@ -40,10 +40,9 @@ struct BenchCommand : BenchOptions {
 std::string nameOf(const std::string& input) { return gltf::textOf(gltf::pathOf(input).stem()); }
 
 gltf::Result BenchCommand::load(const std::string& input, bench::Geometry& geometry) const {
-  std::vector<uint8_t> file;
-  gltf::Result loaded = gltf::readFile(input, file);
+  gltf::Result loaded = gltf::readFile(input, geometry.file);
   if (!loaded.ok()) return loaded;
-  loaded = bench::loadGeometry(input, std::move(file), convert, nullptr, geometry);
+  loaded = bench::loadGeometry(input, geometry.file, convert, nullptr, geometry);
   if (!loaded.ok()) return loaded;
   if (geometry.inputs.empty()) return {input, "has no triangles to measure"};
   return {};

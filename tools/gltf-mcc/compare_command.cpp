@@ -54,8 +54,7 @@ gltf::Result CompareCommand::compare(const std::string& input, bench::FileFigure
     if (result.ok()) result = gltf::writeFile(draco_output, draco, &temporaryFiles());
   }
   if (!result.ok()) return result;
-  result = compareWithDraco(input, std::move(file), convert, nullptr, run_count, common.is_quiet,
-                            figures);
+  result = compareWithDraco(input, file, convert, nullptr, run_count, common.is_quiet, figures);
   for (const std::string& note : notes) figures.notes.push_back(draco_output + ": " + note);
   return result;
 }

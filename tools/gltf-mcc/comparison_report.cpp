@@ -315,14 +315,13 @@ Json comparisonJson(const FileFigures& figures) {
   return json;
 }
 
-gltf::Result compareWithDraco(const std::string& input, std::vector<uint8_t> file,
+gltf::Result compareWithDraco(const std::string& input, std::span<const uint8_t> file,
                               const gltf::ConvertOptions& convert,
                               const bench::PrimitiveFilter& wanted, uint32_t run_count,
                               bool is_quiet, bench::FileFigures& figures) {
   const ProgressLine line(is_quiet);
   bench::Geometry geometry;
-  const gltf::Result loaded =
-      bench::loadGeometry(input, std::move(file), convert, wanted, geometry);
+  const gltf::Result loaded = bench::loadGeometry(input, file, convert, wanted, geometry);
   if (!loaded.ok()) return loaded;
   if (geometry.inputs.empty()) return {input, "has no triangles to compare"};
   bench::MeasureOptions options;

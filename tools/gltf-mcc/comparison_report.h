@@ -4,6 +4,7 @@
 
 #if defined(MCC_HAS_FOREIGN)
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace mcc::tool {
 
 /// Measures our codec and Draco at speeds 0, 3 and 5 on a file, with errors. Errors: those of
 /// loadGeometry(); there is nothing to compare; our codec failed.
-gltf::Result compareWithDraco(const std::string& input, std::vector<uint8_t> file,
+gltf::Result compareWithDraco(const std::string& input, std::span<const uint8_t> file,
                               const gltf::ConvertOptions& convert,
                               const bench::PrimitiveFilter& wanted, uint32_t run_count,
                               bool is_quiet, bench::FileFigures& figures);

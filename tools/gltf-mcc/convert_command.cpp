@@ -45,7 +45,8 @@ struct ConvertCommand {
   int runMany() const;
   int runOne() const;
   gltf::Result checkNames() const;
-  gltf::Result convertOne(Converted& converted, ConvertComparison& compared) const;
+  gltf::Result convertOne(StreamSource& source, Converted& converted,
+                          ConvertComparison& compared) const;
 };
 
 bool isGltf(const std::string& name) {
@@ -105,16 +106,17 @@ bool isReplaced(const std::string& input, const std::string& output) {
 }
 
 /// Converts, compares, and measures the files.
-gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison& compared) const {
-  StreamSource source;
+gltf::Result ConvertCommand::convertOne(StreamSource& source, Converted& converted,
+                                        ConvertComparison& compared) const {
   StreamSink sink;
   gltf::Result result;
   {
     WorkProgress progress(common.is_quiet, converted.input);
     progress.tell("reading", -1);
     result = source.open(converted.input);  // may have to wait for a pipe
+    if (result.ok()) result = sink.open(converted.output);
+    if (result.ok()) result = source.read();
   }
-  if (result.ok()) result = sink.open(converted.output);
   if (!result.ok()) return result;
   CommonOptions shown = common;
   shown.is_quiet |= sink.isStandardOutput();
@@ -122,15 +124,17 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
                      comparison.mode == "draco";
   const bool compares_size = !compared.is_full && !shown.is_quiet;
   const bool is_measured = canMeasureWhole() && (!report.empty() || !shown.is_quiet);
-  const auto measure = [&](const char* name, std::function<FileContents()> read) {
-    return std::async(launchPolicy(convert.thread_count),
-                      [name, read = std::move(read)]() { return measureWhole(name, read()); });
-  };
+  const std::launch policy = launchPolicy(convert.thread_count);
   std::future<WholeSize> input_size;
   if (is_measured && isReplaced(converted.input, converted.output)) {
-    FileContents contents =
-        readDocumentFiles(gltf::pathOf(converted.input), !isGltf(converted.output));
-    input_size = measure("input", [held = std::move(contents)]() { return held; });
+    auto beside = readFilesBeside(gltf::pathOf(converted.input), *source.source().bytes,
+                                  !isGltf(converted.output));
+    input_size = std::async(policy, [&source, beside = std::move(beside)]() {
+      WholeSize size = {"input"};
+      size.add(*source.source().bytes);
+      for (const std::vector<uint8_t>& file : beside) size.add(file);
+      return size;
+    });
   }
   result =
       compared.begin(source.source(), converted.output, convert, compares_size || compared.is_full);
@@ -153,11 +157,16 @@ gltf::Result ConvertCommand::convertOne(Converted& converted, ConvertComparison&
   if (result.ok()) result = sink.finish();
   if (!result.ok()) return result;
   if (is_measured && !input_size.valid()) {
-    input_size = measure("input", [&]() { return source.contents(used.input); });
+    input_size = std::async(policy, [&]() {
+      WholeSize size = {"input"};
+      size.add(*source.source().bytes);
+      if (!used.input.empty()) size.addFiles(std::span(used.input).subspan(1));
+      return size;
+    });
   }
   std::future<WholeSize> output_size;
   if (is_measured && !converted.report.copied) {
-    output_size = measure("output", [&]() { return sink.contents(used.output); });
+    output_size = std::async(policy, [&]() { return sink.measure(used.output); });
   }
   result = compared.finish(source.source(), convert, converted.report, shown, !report.empty());
   converted.draco = compared.line;
@@ -195,8 +204,9 @@ int ConvertCommand::runOne() const {
   const gltf::Result writable = report.empty() ? gltf::Result{} : checkReport(report);
   if (!writable.ok()) return reportFailure(writable);
   Converted converted{files.inputs[0], files.output, {}, {}, {}};
+  StreamSource source;
   ConvertComparison compared = comparison;
-  const gltf::Result outcome = convertOne(converted, compared);
+  const gltf::Result outcome = convertOne(source, converted, compared);
   if (!outcome.ok()) return reportFailure(outcome, converted.input, converted.output);
   const auto json = reportJson(converted, convert, compared.json);
   if (!report.empty()) {

@@ -24,10 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files with more triangles or bytes than this are compared only when the user asks for it: that
-/// takes time, and memory for a second copy of the file.
+/// Files with more triangles than this are compared only when the user asks for it: that takes time
+/// and memory.
 constexpr uint64_t kComparedTriangles = 2'000'000;
-constexpr uint64_t kComparedMebibytes = 256;
 constexpr uint32_t kRuns = 3;
 
 using Primitives = std::set<std::pair<uint32_t, uint32_t>>;
@@ -53,25 +52,19 @@ bench::PrimitiveFilter filterOf(const Primitives& primitives) {
   };
 }
 
-bool isLarge(const gltf::Source& input) {
-  std::error_code code;
-  const uintmax_t bytes = input.bytes ? input.bytes->size() : fs::file_size(input.path, code);
-  return !code && bytes > kComparedMebibytes << 20;
-}
-
 /// Returns 0 where Draco fails.
 uint64_t dracoBytes(const bench::Geometry& geometry, bench::Codec codec) {
   bench::EncodedFile encoded;
   return bench::encodeFile(geometry, codec, encoded).ok() ? encoded.bytes() : 0;
 }
 
-DracoSize measureSize(const fs::path& path, std::vector<uint8_t> file,
-                      const gltf::ConvertOptions& convert, const Primitives& primitives) {
+DracoSize measureSize(const gltf::Source& input, const gltf::ConvertOptions& convert,
+                      const Primitives& primitives) {
   DracoSize size;
   const gltf::Result done = gltf::guarded([&]() -> gltf::Result {
     bench::Geometry geometry;
-    MCC_GLTF_TRY(bench::loadGeometry(path, std::move(file), convert, filterOf(primitives), geometry,
-                                     bench::OurPayloads::kLeftOut));
+    MCC_GLTF_TRY(bench::loadGeometry(input.path, *input.bytes, convert, filterOf(primitives),
+                                     geometry, bench::OurPayloads::kLeftOut));
     size.has_left_out = geometry.has_left_out;
     auto fast = std::async(std::launch::async,
                            [&]() { return dracoBytes(geometry, bench::Codec::kDraco5); });
@@ -123,43 +116,31 @@ void ConvertComparison::beginSize(const gltf::Source& input, const gltf::Convert
   gltf::ConvertOptions options = convert;
   options.thread_count = 1;
   options.progress = nullptr;
-  size_ = std::async(std::launch::async,
-                     [this, path = input.path, options, held = std::move(compressed.primitives)]() {
-                       return measureSize(path, std::move(source), options, held);
-                     });
+  size_ =
+      std::async(std::launch::async, [input, options, held = std::move(compressed.primitives)]() {
+        return measureSize(input, options, held);
+      });
 }
 
 void ConvertComparison::addOptions(Command& command) {
   command.addWords("--compare", mode, {"draco", "none"},
-                   "Compare with Draco [draco, but not above 2M triangles or 256 MiB]");
+                   "Compare with Draco [draco, but not above 2M triangles]");
   command.add("--emit-draco", "OUT2", &draco_output,
               "Also write IN with Draco, speed 0, to this .glb");
 }
 
 gltf::Result ConvertComparison::begin(const gltf::Source& input, const std::string& output,
                                       const gltf::ConvertOptions& convert, bool is_shown) {
-  if (mode.empty() && isLarge(input)) {
-    if (is_shown)
-      notes += fmt::format("note: not compared with Draco above {} MiB; use --compare draco\n",
-                           kComparedMebibytes);
-    mode = "none";
-  }
   if ((mode == "none" || !is_shown) && draco_output.empty()) return {};
-  gltf::Result result;
-  if (input.bytes) {
-    source.assign(input.bytes->begin(), input.bytes->end());
-  } else {
-    result = gltf::readFile(input.path, source);
-  }
   std::error_code ignored;
-  if (result.ok() && !gltf::isGlb(source) && fs::equivalent(input.path, output, ignored)) {
+  if (!gltf::isGlb(*input.bytes) && fs::equivalent(input.path, output, ignored)) {
     mode = "none";  // the buffer of the input may be replaced, too
     notes += "note: not compared with Draco: the input is replaced\n";
   }
-  if (!result.ok() || draco_output.empty()) return result;
-  result = gltf::checkWritable(draco_output);
+  if (draco_output.empty()) return {};
+  gltf::Result result = gltf::checkWritable(draco_output);
   std::vector<std::string> left_out;
-  if (result.ok()) result = bench::emitDraco(input.path, source, convert, draco, left_out);
+  if (result.ok()) result = bench::emitDraco(input.path, *input.bytes, convert, draco, left_out);
   for (const std::string& note : left_out)
     notes += "note: " + gltf::printable(draco_output + ": " + note) + "\n";
   return result;
@@ -188,9 +169,11 @@ gltf::Result ConvertComparison::finish(const gltf::Source& input,
   auto size = std::async(launchPolicy(convert.thread_count), [&]() -> std::optional<WholeSize> {
     std::vector<std::string> ignored;
     const bool is_made =
-        !draco.empty() || bench::emitDraco(input.path, source, convert, draco, ignored).ok();
+        !draco.empty() || bench::emitDraco(input.path, *input.bytes, convert, draco, ignored).ok();
     if (!is_made) return std::nullopt;
-    return measureWhole("draco", {std::move(draco)});
+    WholeSize whole = {"draco"};
+    whole.add(std::exchange(draco, {}));
+    return whole;
   });
   // With --format csv only one table is printed; `compare` prints the other one.
   const bool is_csv = common.format == Format::kCsv && !is_reported;
@@ -206,8 +189,8 @@ gltf::Result ConvertComparison::compare(const gltf::Source& input,
   const Compressed compressed = compressedOf(report);
   bench::FileFigures figures;
   const gltf::Result compared =
-      compareWithDraco(gltf::textOf(input.path), source, convert, filterOf(compressed.primitives),
-                       kRuns, common.is_quiet, figures);
+      compareWithDraco(gltf::textOf(input.path), *input.bytes, convert,
+                       filterOf(compressed.primitives), kRuns, common.is_quiet, figures);
   if (!compared.ok()) {
     notes += "note: not compared with Draco: " + gltf::printable(compared.message()) + "\n";
     return {};

@@ -22,24 +22,23 @@ struct DracoSize {
 };
 
 /// The options `--compare` and `--emit-draco` of `convert`. A build without other codecs does not
-/// have them and compares nothing.
+/// have them and compares nothing. The bytes of every input are in memory, and outlive the object.
 struct ConvertComparison {
-  std::string mode;             ///< "draco" or "none"; empty: Draco, unless the file is large
-  std::string draco_output;     ///< path of the Draco file; empty: none is written
-  std::vector<uint8_t> source;  ///< a copy of the input when the output replaces it
-  std::vector<uint8_t> draco;   ///< the bytes of the Draco file
-  std::string line;             ///< Draco's size in words; empty when nothing was compared
-  std::string tables;           ///< empty unless is_full
-  std::string notes;            ///< lines to print
-  gltf::Json json;              ///< see comparisonJson(); null unless is_full
+  std::string mode;            ///< "draco" or "none"; empty: Draco, unless the geometry is large
+  std::string draco_output;    ///< path of the Draco file; empty: none is written
+  std::vector<uint8_t> draco;  ///< the bytes of the Draco file
+  std::string line;            ///< Draco's size in words; empty when nothing was compared
+  std::string tables;          ///< empty unless is_full
+  std::string notes;           ///< lines to print
+  gltf::Json json;             ///< see comparisonJson(); null unless is_full
   std::optional<WholeSize> draco_size;  ///< only when is_full
   /// Whether Draco is measured at all its speeds, for tables and reports; else only its size, the
   /// smaller of speeds 0 and 5, while the conversion is being checked.
   bool is_full = false;
 
   void addOptions(Command& command);
-  /// Called before the conversion: reads the source if it will be compared, makes the Draco file,
-  /// and checks that it can be written. `is_shown`: whether anybody will see Draco's size.
+  /// Called before the conversion: makes the Draco file, and checks that it can be written.
+  /// `is_shown`: whether anybody will see Draco's size.
   gltf::Result begin(const gltf::Source& input, const std::string& output,
                      const gltf::ConvertOptions& convert, bool is_shown);
   /// Called when everything is encoded and `report` lists the primitives: starts to measure Draco's

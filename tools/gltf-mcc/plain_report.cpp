@@ -95,13 +95,10 @@ std::string advice(const std::string& name, const gltf::Document& document) {
 gltf::Result plainReport(const std::string& name, const gltf::Source& source, Format format,
                          std::string& text) {
   return gltf::guarded([&]() -> gltf::Result {
-    std::vector<uint8_t> bytes;
-    if (!source.bytes) MCC_GLTF_TRY(gltf::readFile(source.path, bytes));
+    gltf::Input input;
     gltf::Document document;
-    const gltf::FileReader reader =
-        source.bytes ? gltf::FileReader() : gltf::readerOf(gltf::folderOf(source.path));
-    MCC_GLTF_TRY(gltf::loadDocument(source.bytes ? *source.bytes : std::span<const uint8_t>(bytes),
-                                    reader, document));
+    MCC_GLTF_TRY(input.open(source));
+    MCC_GLTF_TRY(gltf::loadDocument(input.bytes, input.read_file, document));
     text = contentsTable(document, format).print(format) + "\n" + advice(name, document);
     return {};
   });

@@ -36,15 +36,18 @@ gltf::Result StreamSource::open(const std::string& name) {
   return gltf::readStream(kStandardInput, kInputName, bytes_.emplace());
 }
 
+gltf::Result StreamSource::read() {
+  if (bytes_) return {};
+  is_file_ = true;
+  return gltf::readFile(gltf::pathOf(name_), bytes_.emplace());
+}
+
 gltf::Source StreamSource::source() const {
   gltf::Source source;
   source.path = gltf::pathOf(name_);
   if (bytes_) source.bytes = *bytes_;
+  source.is_read = is_file_;
   return source;
-}
-
-FileContents StreamSource::contents(const std::vector<std::filesystem::path>& files) const {
-  return bytes_ ? FileContents{*bytes_} : readFiles(files);
 }
 
 gltf::Result writeStandardOutput(std::span<const uint8_t> bytes) {
@@ -85,8 +88,10 @@ gltf::ListedSink StreamSink::sink() {
   return {{gltf::pathOf(name_), nullptr}, &temporaryFiles()};
 }
 
-FileContents StreamSink::contents(const std::vector<std::filesystem::path>& files) const {
-  return is_stream_ ? FileContents{bytes_} : readFiles(files);
+WholeSize StreamSink::measure(const std::vector<std::filesystem::path>& files) const {
+  WholeSize size = {"output"};
+  is_stream_ ? size.add(bytes_) : size.addFiles(files);
+  return size;
 }
 
 gltf::Result StreamSink::finish() const {

@@ -31,14 +31,15 @@ class StreamSource {
   /// Opens the source. Standard input and pipes are read into memory, as far as gltf::readStream()
   /// says. Errors: standard input is a terminal; those of readStream().
   gltf::Result open(const std::string& name);
+  /// Reads a file, too, for those who need its bytes more than once. Errors: those of readFile().
+  gltf::Result read();
   /// Valid as long as this object.
   gltf::Source source() const;
-  /// Returns what was read from a stream, or else the contents of `files`.
-  FileContents contents(const std::vector<std::filesystem::path>& files) const;
 
  private:
   std::string name_;
   std::optional<std::vector<uint8_t>> bytes_;
+  bool is_file_ = false;  ///< that was read
 };
 
 /// An output: a file, standard output when its name is "-", or a device or pipe.
@@ -48,8 +49,8 @@ class StreamSink {
   /// not a file, although it needs its buffer next to it.
   gltf::Result open(const std::string& name);
   gltf::ListedSink sink();  ///< its temporary files are removed when a signal ends the program
-  /// Returns what a stream received, or else the contents of `files`.
-  FileContents contents(const std::vector<std::filesystem::path>& files) const;
+  /// Measures what a stream received, or else `files`.
+  WholeSize measure(const std::vector<std::filesystem::path>& files) const;
   /// Writes what was received to the stream. Does nothing for a file.
   gltf::Result finish() const;
   bool isStandardOutput() const { return is_standard_output_; }

@@ -162,11 +162,11 @@ Result checkRef(const Document& document, const PrimitiveRef& ref) {
                                             "; there are " + std::to_string(count));
 }
 
-Result findTree(std::span<const uint8_t> source, const FileReader& read_file,
-                const PrimitiveRef& ref, const ForeignDecoders& decoders, McTree& tree) {
+Result findTree(const Input& input, const PrimitiveRef& ref, const ForeignDecoders& decoders,
+                McTree& tree) {
   tree = {};
   Document document;
-  MCC_GLTF_TRY(loadDocument(source, read_file, document));
+  MCC_GLTF_TRY(loadDocument(input.bytes, input.read_file, document));
   document.decoded = DecodedBytes(0, document.source_bytes);
   MCC_GLTF_TRY(decodeViews(decoders, document));
   MCC_GLTF_TRY(decodeMeshes(decoders, document));
@@ -187,12 +187,10 @@ Result findTree(std::span<const uint8_t> source, const FileReader& read_file,
 gltf::Result mcTree(const gltf::Source& source, uint32_t mesh, uint32_t primitive,
                     const gltf::ForeignDecoders& decoders, McTree& tree) {
   return gltf::guarded([&]() -> gltf::Result {
-    const gltf::PrimitiveRef ref = {mesh, primitive};
-    if (source.bytes) return findTree(*source.bytes, nullptr, ref, decoders, tree);
-    std::vector<uint8_t> bytes;
-    MCC_GLTF_TRY(gltf::readFile(source.path, bytes));
-    const gltf::FileReader reader = gltf::readerOf(source.path.parent_path());
-    return gltf::inFile(source.path, findTree(bytes, reader, ref, decoders, tree));
+    gltf::Input input;
+    MCC_GLTF_TRY(input.open(source));
+    const gltf::Result found = findTree(input, {mesh, primitive}, decoders, tree);
+    return input.read_file ? gltf::inFile(source.path, found) : found;
   });
 }
 

@@ -20,19 +20,26 @@ bool canMeasureWhole() {
 #endif
 }
 
-FileContents readFiles(const std::vector<std::filesystem::path>& paths) {
-  FileContents files;
-  for (const std::filesystem::path& path : paths) {
-    std::vector<uint8_t> bytes;
-    if (gltf::readFile(path, bytes).ok()) files.push_back(std::move(bytes));
-  }
-  return files;
+void WholeSize::add(std::span<const uint8_t> file) {
+  bytes += file.size();
+#if defined(MCC_HAS_FOREIGN)
+  brotli_bytes += foreign::brotliBytes(file, kBrotliQuality);
+#endif
 }
 
-FileContents readDocumentFiles(const std::filesystem::path& main, bool with_images) {
-  FileContents files = readFiles({main});
+void WholeSize::addFiles(std::span<const std::filesystem::path> paths) {
+  for (const std::filesystem::path& path : paths) {
+    std::vector<uint8_t> file;
+    if (gltf::readFile(path, file).ok()) add(file);
+  }
+}
+
+std::vector<std::vector<uint8_t>> readFilesBeside(const std::filesystem::path& main,
+                                                  std::span<const uint8_t> main_bytes,
+                                                  bool with_images) {
+  std::vector<std::vector<uint8_t>> files;
   gltf::Json json;
-  if (files.empty() || !gltf::readJson(files[0], json).ok()) return files;
+  if (!gltf::readJson(main_bytes, json).ok()) return files;
   // The document chooses these names, which may be those of pipes and devices.
   const gltf::FileReader reader = gltf::readerOf(gltf::folderOf(main));
   for (const std::string& path :
@@ -41,18 +48,6 @@ FileContents readDocumentFiles(const std::filesystem::path& main, bool with_imag
     if (reader(path, "", bytes).ok()) files.push_back(std::move(bytes));
   }
   return files;
-}
-
-WholeSize measureWhole(std::string name, const FileContents& files) {
-  WholeSize size;
-  size.name = std::move(name);
-  for (const std::vector<uint8_t>& file : files) {
-    size.bytes += file.size();
-#if defined(MCC_HAS_FOREIGN)
-    size.brotli_bytes += foreign::brotliBytes(file, kBrotliQuality);
-#endif
-  }
-  return size;
 }
 
 std::string wholeSizesText(const std::vector<WholeSize>& sizes, Format format) {

@@ -24,14 +24,17 @@ struct WholeSize {
   std::string name;  ///< "input", "output", "draco"
   uint64_t bytes = 0;
   uint64_t brotli_bytes = 0;  ///< sum over the files, each compressed on its own
+
+  void add(std::span<const uint8_t> file);
+  /// Adds files, of which it holds one at a time. What does not exist is left out.
+  void addFiles(std::span<const std::filesystem::path> paths);
 };
 
-using FileContents = std::vector<std::vector<uint8_t>>;
-
-/// Reads the files of a document: the main one, its buffers and, if `with_images`, its images.
-/// What does not exist, or is not a regular file, is left out.
-FileContents readDocumentFiles(const std::filesystem::path& main, bool with_images);
-FileContents readFiles(const std::vector<std::filesystem::path>& paths);
+/// Reads what is next to the main file of a document: its buffers and, if `with_images`, its
+/// images. What does not exist, or is not a regular file, is left out.
+std::vector<std::vector<uint8_t>> readFilesBeside(const std::filesystem::path& main,
+                                                  std::span<const uint8_t> main_bytes,
+                                                  bool with_images);
 
 /// Whether whole files can be measured, which a build without other codecs cannot do.
 bool canMeasureWhole();
@@ -40,9 +43,6 @@ bool canMeasureWhole();
 inline std::launch launchPolicy(uint32_t thread_count) {
   return thread_count > 1 ? std::launch::async : std::launch::deferred;
 }
-
-/// Measures the size of the files, as they are and each compressed on its own.
-WholeSize measureWhole(std::string name, const FileContents& files);
 
 /// Returns a table for kPretty and kMarkdown.
 std::string wholeSizesText(const std::vector<WholeSize>& sizes, Format format);

@@ -24,6 +24,9 @@ struct Source {
   /// The document itself when it is in memory; `path` is then only its name in messages. A .gltf in
   /// memory needs its buffers in data URIs. Borrowed.
   std::optional<std::span<const uint8_t>> bytes;
+  /// Whether `bytes` are what the caller read from `path`. Everything is then as if only `path` was
+  /// given, except that the file is not read again.
+  bool is_read = false;
 };
 
 /// Where a document goes to.

@@ -41,41 +41,25 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// A source and what is needed to read it.
-struct Input {
-  fs::path path;  ///< for a source in memory only a name
-  std::vector<uint8_t> owned;
-  std::span<const uint8_t> bytes;
-  FileReader read_file;  ///< null for a source in memory
+bool isFile(const Input& input) { return input.read_file != nullptr; }
 
-  Result open(const Source& source, const fs::path& within = {}) {
-    path = source.path;
-    if (source.bytes) {
-      bytes = *source.bytes;
-      return {};
-    }
-    MCC_GLTF_TRY(readFile(path, owned));
-    bytes = owned;
-    read_file = readerOf(path.parent_path(), within);
-    return {};
+/// Loads the document. A .gltf may be replaced after it was read, and its old buffer removed: then
+/// the new one is loaded.
+Result load(Input& input, Document& document) {
+  constexpr int kMostTries = 10;
+  Result loaded;
+  for (int i = 0; i < kMostTries; ++i) {
+    document = {};
+    loaded = loadDocument(input.bytes, input.read_file, document);
+    std::vector<uint8_t> now;
+    if (loaded.ok() || !isFile(input) || !readFile(input.path, now).ok() ||
+        std::equal(now.begin(), now.end(), input.bytes.begin(), input.bytes.end()))
+      break;
+    input.owned = std::move(now);
+    input.bytes = input.owned;
   }
-  bool isFile() const { return read_file != nullptr; }
-  /// Loads the document. A .gltf may be replaced after it was read, and its old buffer removed:
-  /// then the new one is loaded.
-  Result load(Document& document) {
-    constexpr int kMostTries = 10;
-    Result loaded;
-    for (int i = 0; i < kMostTries; ++i) {
-      document = {};
-      loaded = loadDocument(bytes, read_file, document);
-      std::vector<uint8_t> now;
-      if (loaded.ok() || !isFile() || !readFile(path, now).ok() || now == owned) break;
-      owned = std::move(now);
-      bytes = owned;
-    }
-    return loaded;
-  }
-};
+  return loaded;
+}
 
 /// Where the result goes: to a file with others next to it, or to memory.
 struct Output {
@@ -134,13 +118,13 @@ void listInput(const Input& input, const Document& document, const std::vector<s
 
 /// Loads the source for an output. For a GLB, image files move into its buffers.
 Result loadFor(const Output& output, Input& input, Document& document) {
-  MCC_GLTF_TRY(input.load(document));
-  if (input.isFile() && output.destination) {
+  MCC_GLTF_TRY(load(input, document));
+  if (isFile(input) && output.destination) {
     MCC_GLTF_TRY(output.destination->checkSource(input.path, document.json));
   }
   const std::vector<std::string> images = filesOf(document.json, "images");
   if (!output.container.is_gltf) MCC_GLTF_TRY(embedImages(input.read_file, document));
-  if (input.isFile() && output.files != nullptr) {
+  if (isFile(input) && output.files != nullptr) {
     listInput(input, document, images, *output.files);
   }
   return {};
@@ -150,7 +134,7 @@ Result loadFor(const Output& output, Input& input, Document& document) {
 /// them.
 Result addFilesBeside(const Json& json, bool with_buffers, const Input& input, const Output& output,
                       Package& package, std::vector<std::string>& notes) {
-  if (input.isFile() && output.destination) {
+  if (isFile(input) && output.destination) {
     if (output.destination->isBeside(input.path)) return {};
     return addCopies(json, with_buffers, input.read_file, package, notes);
   }
@@ -199,7 +183,7 @@ Result packageSource(const Document& document, const Input& input, const Output&
       document.is_glb ? !output.container.is_gltf &&
                             (version == kSmallestGlbVersion || version == document.glb_version)
                       : output.container.is_gltf;
-  is_copy = is_container && (!input.isFile() || !moves || canCopyBuffers(document.json));
+  is_copy = is_container && (!isFile(input) || !moves || canCopyBuffers(document.json));
   if (is_copy) {
     package.main.assign(input.bytes.begin(), input.bytes.end());
     return addFilesBeside(document.json, true, input, output, package, notes);

@@ -328,14 +328,15 @@ void describe(const Json& json, ValidationReport& report) {
   visitPrimitives(json, [&](const PrimitiveRef&, const Json&) { ++report.primitive_count; });
 }
 
-void validateBytes(std::span<const uint8_t> bytes, const FileReader& read_file,
-                   const ValidateOptions& options, Issues& issues, ValidationReport& report) {
-  report.input_bytes = bytes.size();
-  report.is_glb = isGlb(bytes);
+void validateInput(const Input& input, const ValidateOptions& options, Issues& issues,
+                   ValidationReport& report) {
+  report.input_bytes = input.bytes.size();
+  report.is_glb = isGlb(input.bytes);
   Json json;
-  if (readJson(bytes, json).ok()) describe(json, report);
+  if (readJson(input.bytes, json).ok()) describe(json, report);
   Document document;
-  if (!issues.passes(rule::kDocument, loadDocument(bytes, read_file, document))) return;
+  const Result loaded = loadDocument(input.bytes, input.read_file, document);
+  if (!issues.passes(rule::kDocument, loaded)) return;
   report.input_bytes = document.source_bytes;
   Validator(json, document, options, issues, report).run();
 }
@@ -353,12 +354,11 @@ ValidationIssue publicIssue(const Issue& issue) {
 Result validate(const Source& source, const ValidateOptions& options, ValidationReport& report) {
   return guarded([&]() -> Result {
     report = {};
-    std::vector<uint8_t> storage;
-    if (!source.bytes) MCC_GLTF_TRY(readFile(source.path, storage));
-    const FileReader read_file = source.bytes ? FileReader() : readerOf(folderOf(source.path));
+    Input input;
+    MCC_GLTF_TRY(input.open(source));
     Issues issues(options.max_issues == 0 ? std::numeric_limits<size_t>::max()
                                           : options.max_issues);
-    validateBytes(source.bytes ? *source.bytes : storage, read_file, options, issues, report);
+    validateInput(input, options, issues, report);
     for (const Issue& issue : issues.kept()) report.issues.push_back(publicIssue(issue));
     uint64_t total = 0;
     for (size_t i = 0; i < 4; ++i) {

@@ -16,6 +16,7 @@
 #include "gltf/document/document.h"
 #include "host/system.h"
 #include "host/temporary_files.h"
+#include "mcc/files.h"
 
 namespace mcc::gltf {
 
@@ -80,6 +81,24 @@ Result readNamed(const std::filesystem::path& folder, const std::string& name,
 
 /// Returns a reader of NamedFiles, for loadDocument(). Its errors have the name.
 FileReader readerOf(const std::filesystem::path& folder, const std::filesystem::path& within = {});
+
+/// A source and what is needed to read it.
+struct Input {
+  std::filesystem::path path;  ///< for a source in memory only a name
+  std::vector<uint8_t> owned;
+  std::span<const uint8_t> bytes;  ///< those of the source or `owned`
+  FileReader read_file;            ///< null for a source in memory
+
+  /// within  as NamedFile::open() takes it
+  /// Errors: as readFile().
+  Result open(const Source& source, const std::filesystem::path& within = {}) {
+    path = source.path;
+    if (!source.bytes) MCC_GLTF_TRY(readFile(path, owned));
+    bytes = source.bytes ? *source.bytes : owned;
+    if (!source.bytes || source.is_read) read_file = readerOf(path.parent_path(), within);
+    return {};
+  }
+};
 
 /// Puts the name of a file before the place in it where something is wrong.
 Result inFile(const std::filesystem::path& path, Result result);

@@ -538,11 +538,10 @@ Result inspectView(const Document& document, const PayloadUse& payload, bool cou
   return StreamCounter(report).run(decoded, where);
 }
 
-Result inspectBytes(std::span<const uint8_t> source, const FileReader& read_file, bool count_codes,
-                    InspectReport& report) {
+Result inspectInput(const Input& input, bool count_codes, InspectReport& report) {
   report = {};
   Document document;
-  MCC_GLTF_TRY(loadDocument(source, read_file, document));
+  MCC_GLTF_TRY(loadDocument(input.bytes, input.read_file, document));
   report.input_bytes = document.source_bytes;
   report.extensions_used = extensionNames(document.json, "extensionsUsed");
   report.mesh_count = static_cast<uint32_t>(document.first_primitive_of.size());
@@ -562,14 +561,14 @@ Result inspectBytes(std::span<const uint8_t> source, const FileReader& read_file
 }  // namespace
 
 Result inspectGlb(std::span<const uint8_t> source, bool count_codes, InspectReport& report) {
-  return guarded([&]() { return inspectBytes(source, nullptr, count_codes, report); });
+  return guarded([&]() { return inspectInput({{}, {}, source, nullptr}, count_codes, report); });
 }
 
 Result inspectFile(const std::filesystem::path& source, bool count_codes, InspectReport& report) {
   return guarded([&]() -> Result {
-    std::vector<uint8_t> bytes;
-    MCC_GLTF_TRY(readFile(source, bytes));
-    return inFile(source, inspectBytes(bytes, readerOf(source.parent_path()), count_codes, report));
+    Input input;
+    MCC_GLTF_TRY(input.open({source, {}}));
+    return inFile(source, inspectInput(input, count_codes, report));
   });
 }
 
