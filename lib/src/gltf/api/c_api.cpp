@@ -130,7 +130,7 @@ mcc_status mcc_convert_glb(const void* glb, size_t byte_count, const mcc_convert
   mcc::gltf::ConvertOptions convert_options;
   if (status.ok()) status = mcc::gltf::fromC(read, convert_options);
   return mcc::gltf::makeDocument(status, glb, byte_count, document,
-                                 [&](const mcc::gltf::Source& source, const mcc::gltf::Sink& sink) {
+                                 [&](const auto& source, const auto& sink) {
                                    mcc::gltf::ConvertReport report;
                                    return mcc::gltf::convert(source, sink, convert_options, report);
                                  });
@@ -153,7 +153,7 @@ mcc_status mcc_decode_glb(const void* glb, size_t byte_count, const mcc_decode_g
   decode_options.max_decoded_bytes = read.max_decoded_bytes;
   decode_options.glb_version = glb_version;
   return mcc::gltf::makeDocument(status, glb, byte_count, document,
-                                 [&](const mcc::gltf::Source& source, const mcc::gltf::Sink& sink) {
+                                 [&](const auto& source, const auto& sink) {
                                    mcc::gltf::DecodeReport report;
                                    return mcc::gltf::decode(source, sink, report, decode_options);
                                  });
@@ -162,8 +162,7 @@ mcc_status mcc_decode_glb(const void* glb, size_t byte_count, const mcc_decode_g
 mcc_status mcc_inspect_glb(const void* glb, size_t byte_count, const char* name,
                            mcc_document** document) {
   return mcc::gltf::makeDocument(
-      {}, glb, byte_count, document,
-      [=](const mcc::gltf::Source& source, const mcc::gltf::Sink& sink) {
+      {}, glb, byte_count, document, [=](const auto& source, const auto& sink) {
         mcc::gltf::InspectReport report;
         mcc::gltf::Result result = mcc::gltf::inspectGlb(*source.bytes, true, report);
         if (!result.ok()) return result;

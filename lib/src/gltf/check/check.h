@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "gltf/compress/compress.h"
 #include "mcc/glb.h"

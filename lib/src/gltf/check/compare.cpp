@@ -7,7 +7,6 @@
 #include <unordered_set>
 
 #include "gltf/document/accessors.h"
-#include "gltf/document/layout.h"
 #include "gltf/document/references.h"
 
 namespace mcc::gltf {
@@ -312,8 +311,6 @@ void addViews(const Document& source, const Touched& touched, BytesChecker& chec
 }
 
 }  // namespace
-
-bool equalJson(const Json& a, const Json& b) { return firstDifference(a, b).empty(); }
 
 std::string firstDifference(const Json& a, const Json& b) {
   std::string path;

@@ -44,10 +44,8 @@ class SameBytes {
   size_t first_ = kNothing;
 };
 
-/// Whether two values are equal. Members of objects may come in any order.
-bool equalJson(const Json& a, const Json& b);
-
 /// Returns the JSON path of the first difference, or an empty string. The root itself is "/".
+/// Members of objects may come in any order.
 std::string firstDifference(const Json& a, const Json& b);
 
 /// Compares everything that does not belong to the compressed primitives in `uses`: the JSON, the

@@ -20,8 +20,8 @@ namespace mcc::gltf {
 namespace {
 
 bool hasElements(const Json& accessor) {
-  return findMember(accessor, "bufferView") != nullptr ||
-         findMember(accessor, "byteOffset") != nullptr || findMember(accessor, "sparse") != nullptr;
+  return accessor.contains("bufferView") || accessor.contains("byteOffset") ||
+         accessor.contains("sparse");
 }
 
 bool isListed(const Json& json, const char* list) {
@@ -150,9 +150,9 @@ class Validator {
   void checkView(const Json& views, uint32_t view) {
     const Json& json = views[view];
     for (const char* key : {"byteStride", "target"}) {
-      if (findMember(json, key) == nullptr) continue;
-      issues_.add(rule::kPayloadView, at(at("/bufferViews", view), key),
-                  "must not be defined: the buffer view holds a payload");
+      if (json.contains(key))
+        issues_.add(rule::kPayloadView, at(at("/bufferViews", view), key),
+                    "must not be defined: the buffer view holds a payload");
     }
   }
 

@@ -23,19 +23,20 @@ struct PieceInput {
 
   explicit PieceInput(const PiecePlan& plan) {
     for (const AttributePlan& attribute : plan.attributes) attributes.push_back(attribute.view());
-    if (plan.attributes.empty()) attributes.push_back(weldingView(plan));
+    // With indices_only, the codec needs the exact positions to find those that are equal.
+    if (plan.attributes.empty()) attributes.push_back(plan.ordinary[0].view());
     for (const PartPlan& part : plan.parts) parts.push_back({part.triangles});
     view = {plan.wedge_count, attributes, parts};
   }
 };
 
-Status encodePieces(const std::vector<const PiecePlan*>& plans, const EncodeOptions& options,
+Status encodePieces(std::span<const PiecePlan> plans, const EncodeOptions& options,
                     EncodeResult& result) {
   std::vector<PieceInput> inputs;
   inputs.reserve(plans.size());  // the views point into the elements, which must not move
   std::vector<PieceView> views;
-  for (const PiecePlan* plan : plans) {
-    inputs.emplace_back(*plan);
+  for (const PiecePlan& plan : plans) {
+    inputs.emplace_back(plan);
     views.push_back(inputs.back().view);
   }
   return encode(views, options, result);
@@ -61,7 +62,7 @@ void removeRefusedPieces(const EncodeOptions& options, PayloadPlan& plan,
   std::vector<PiecePlan> accepted;
   for (PiecePlan& piece : plan.pieces) {
     EncodeResult ignored;
-    const Status status = encodePieces({&piece}, options, ignored);
+    const Status status = encodePieces({&piece, 1}, options, ignored);
     if (status.ok()) {
       accepted.push_back(std::move(piece));
     } else {
@@ -69,12 +70,6 @@ void removeRefusedPieces(const EncodeOptions& options, PayloadPlan& plan,
     }
   }
   plan.pieces = std::move(accepted);
-}
-
-Status encodePlan(const EncodeOptions& options, const PayloadPlan& plan, EncodeResult& result) {
-  std::vector<const PiecePlan*> pieces;
-  for (const PiecePlan& piece : plan.pieces) pieces.push_back(&piece);
-  return encodePieces(pieces, options, result);
 }
 
 void leaveAllAlone(const std::string& note, EncodedPayload& payload,
@@ -85,12 +80,12 @@ void leaveAllAlone(const std::string& note, EncodedPayload& payload,
 
 void encodeOne(const EncodeOptions& options, EncodedPayload& payload,
                std::vector<LeftAlone>& left_alone) {
-  if (!encodePlan(options, payload.plan, payload.result).ok()) {
+  if (!encodePieces(payload.plan.pieces, options, payload.result).ok()) {
     removeRefusedPieces(options, payload.plan, left_alone);
     payload.result = {};
     if (payload.plan.pieces.empty()) return;
     // The codec may accept each piece alone, but not all of them together.
-    const Status status = encodePlan(options, payload.plan, payload.result);
+    const Status status = encodePieces(payload.plan.pieces, options, payload.result);
     if (!status.ok()) return leaveAllAlone(refusal(status), payload, left_alone);
   }
   Payload opened;
@@ -137,7 +132,8 @@ std::vector<const PayloadPlan*> plansOf(const std::vector<PayloadPlan>& payloads
 uint64_t bytesAlone(const ConvertOptions& options, const PayloadPlan& plan,
                     const PiecePlan& piece) {
   EncodeResult result;
-  return encodePieces({&piece}, optionsOf(options, plan), result).ok() ? result.payload.size() : 0;
+  return encodePieces({&piece, 1}, optionsOf(options, plan), result).ok() ? result.payload.size()
+                                                                          : 0;
 }
 
 Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> plans,
@@ -167,12 +163,6 @@ Result encodePayloads(const ConvertOptions& options, std::vector<PayloadPlan> pl
 }
 
 namespace {
-
-void removeBytes(Json& accessor) {
-  accessor.erase("bufferView");
-  accessor.erase("byteOffset");
-  accessor.erase("sparse");
-}
 
 /// Writes the payloads into the JSON of the document.
 class Applier {
@@ -214,7 +204,11 @@ class Applier {
     }
     // addFallback() removes the requirement again.
     listExtension(compressed_.json, kExtensionName, true);
-    if (!usesMeshExtension()) listExtension(compressed_.json, kMeshExtension, false);
+    bool is_used = false;
+    visitPrimitives(compressed_.json, [&](const PrimitiveRef&, const Json& primitive) {
+      is_used |= extensionOf(primitive, kMeshExtension) != nullptr;
+    });
+    if (!is_used) listExtension(compressed_.json, kMeshExtension, false);
     return views;
   }
 
@@ -257,14 +251,6 @@ class Applier {
     });
   }
 
-  bool usesMeshExtension() const {
-    bool is_used = false;
-    visitPrimitives(compressed_.json, [&](const PrimitiveRef&, const Json& primitive) {
-      is_used |= extensionOf(primitive, kMeshExtension) != nullptr;
-    });
-    return is_used;
-  }
-
   static void setAccessors(const PiecePlan& piece, const std::vector<uint32_t>& accessors,
                            Json& primitive) {
     for (size_t k = 0; k < accessors.size(); ++k) {
@@ -287,7 +273,7 @@ class Applier {
           sentence(where, " shares accessor ", source, " with others and gets its own"));
     }
     is_taken_[source] = true;
-    removeBytes(accessors[index]);
+    for (const char* key : {"bufferView", "byteOffset", "sparse"}) accessors[index].erase(key);
     return index;
   }
 
@@ -355,12 +341,6 @@ void findTwins(std::vector<EncodedPayload>& payloads) {
   }
 }
 
-void sortByPlace(std::vector<LeftAlone>& left_alone) {
-  std::stable_sort(
-      left_alone.begin(), left_alone.end(),
-      [](const LeftAlone& a, const LeftAlone& b) { return a.primitive < b.primitive; });
-}
-
 }  // namespace
 
 Result compressDocument(const Document& document, const ConvertOptions& options,
@@ -392,7 +372,9 @@ Result compressDocument(const Document& document, const ConvertOptions& options,
     dropLosers(document, compressed.payloads, compressed.left_alone);
   }
   findTwins(compressed.payloads);
-  sortByPlace(compressed.left_alone);
+  std::stable_sort(
+      compressed.left_alone.begin(), compressed.left_alone.end(),
+      [](const LeftAlone& a, const LeftAlone& b) { return a.primitive < b.primitive; });
   MCC_GLTF_TRY(makePreviews(options, compressed.payloads, compressed.previews, compressed.remarks));
   for (const EncodedPayload& payload : compressed.payloads) {
     for (const std::string& note : payload.result.notes) {

@@ -6,12 +6,10 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "base/crc32.h"
-#include "gltf/document/references.h"
 #include "host/text.h"
 #include "mesh/face_mesh.h"
 
@@ -201,8 +199,7 @@ class Planner {
       return sentence("has ", piece.target_count, " morph targets, more than the ", kMaxTargets,
                       " of a payload");
     }
-    if (piece.attributes.empty() || piece.attributes[0].format.semantic != Semantic::kPosition ||
-        piece.attributes[0].target != kNone) {
+    if (piece.attributes.empty() || !piece.attributes[0].isBase(Semantic::kPosition)) {
       return "has no POSITION of three components";
     }
     const uint64_t count = document_.accessors[piece.attributes[0].accessor].count;
@@ -311,15 +308,6 @@ class Planner {
     return key;
   }
 
-  /// Returns the number of the payload of a mesh, which is created for its first piece.
-  size_t payloadOf(uint32_t mesh) {
-    if (payloads_.empty() || payloads_.back().mesh != mesh) {
-      payloads_.emplace_back();
-      payloads_.back().mesh = mesh;
-    }
-    return payloads_.size() - 1;
-  }
-
   void addUser(const PrimitiveRef& ref, bool keep_orders, PiecePlan&& piece, KnownPiece& known,
                KnownPart& part) {
     if (!known.is_used) {
@@ -328,7 +316,9 @@ class Planner {
       }
       keepBesidePayload(piece);
       known.is_used = true;
-      known.payload = payloadOf(ref.mesh);
+      if (payloads_.empty() || payloads_.back().mesh != ref.mesh)
+        payloads_.emplace_back().mesh = ref.mesh;
+      known.payload = payloads_.size() - 1;
       known.number = payloads_[known.payload].pieces.size();
       payloads_[known.payload].pieces.push_back(std::move(piece));
     }
@@ -511,11 +501,6 @@ std::vector<bool> mayBeGathered(const std::vector<PayloadPlan>& payloads) {
   return may_be_gathered;
 }
 
-bool keepSameOrders(const PayloadPlan& a, const PayloadPlan& b) {
-  return a.keep_vertex_order == b.keep_vertex_order &&
-         a.keep_triangle_order == b.keep_triangle_order;
-}
-
 }  // namespace
 
 void gatherPayloads(std::vector<PayloadPlan>& payloads) {
@@ -527,7 +512,8 @@ void gatherPayloads(std::vector<PayloadPlan>& payloads) {
     PayloadPlan& payload = payloads[i];
     const uint64_t more = wedgesOf(payload);
     if (may_be_gathered[i] && wedge_count + more <= kGatheredWedges &&
-        keepSameOrders(payload, gathered[open])) {
+        payload.keep_vertex_order == gathered[open].keep_vertex_order &&
+        payload.keep_triangle_order == gathered[open].keep_triangle_order) {
       std::move(payload.pieces.begin(), payload.pieces.end(),
                 std::back_inserter(gathered[open].pieces));
       wedge_count += more;

@@ -31,6 +31,8 @@ struct AttributePlan {
   /// of one.
   bool is_rounded_with_others = false;
 
+  /// Whether it is the attribute of the base mesh with this meaning.
+  bool isBase(Semantic semantic) const { return format.semantic == semantic && target == kNone; }
   std::string label() const { return attributeLabel(name, target); }
   /// Returns what the writer is given. It refers to the source and to `lattice`.
   AttributeView view() const;

@@ -6,10 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
-#include <span>
-#include <string>
 #include <tuple>
 
 #include "format/codings.h"
@@ -122,14 +119,12 @@ void TextureUses::addTextures(const Json& json, BySet& texels) const {
     (void)asUnsigned(findMember(json, "texCoord"), set);
     const Json* transform = extensionOf(json, "KHR_texture_transform");
     (void)asUnsigned(findMember(transform, "texCoord"), set);
+    const bool is_known = texture < texture_texels_.size();
     double& largest = texels[set];
-    largest = std::max(largest, sizeOf(texture) * scaleOf(transform));
+    largest = std::max(largest,
+                       (is_known ? texture_texels_[texture] : kUsualTexels) * scaleOf(transform));
   }
   for (const Json& value : json) addTextures(value, texels);
-}
-
-double TextureUses::sizeOf(uint64_t texture) const {
-  return texture < texture_texels_.size() ? texture_texels_[texture] : kUsualTexels;
 }
 
 void TextureUses::findTextureSizes() {
@@ -382,7 +377,8 @@ class QualityPlanner {
     uint8_t bits = 0;
     const char* why = "";  // it stays exact
     const bool is_vector = semantic == Semantic::kNormal || semantic == Semantic::kTangent;
-    if (isBasePosition(attribute)) return tally.add(attribute);  // it is planned already
+    if (attribute.isBase(Semantic::kPosition))
+      return tally.add(attribute);  // it is planned already
     if (!addTo(extent, attribute)) {
       why = kNotFinite;
     } else if (is_target) {

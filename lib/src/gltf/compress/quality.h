@@ -47,7 +47,6 @@ class TextureUses {
   using BySet = std::map<uint64_t, double>;  ///< texels
 
   void addTextures(const Json& json, BySet& texels) const;
-  double sizeOf(uint64_t texture) const;
   void findTextureSizes();
   double imageTexels(const Json& image) const;
 

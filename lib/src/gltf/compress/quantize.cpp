@@ -72,10 +72,6 @@ bool isFloat(const AttributePlan& attribute) {
   return attribute.format.component_type == ComponentType::kFloat32;
 }
 
-bool isBasePosition(const AttributePlan& attribute) {
-  return attribute.format.semantic == Semantic::kPosition && attribute.target == kNone;
-}
-
 std::string whereIs(const PiecePlan& piece, const AttributePlan& attribute) {
   return piece.parts[0].users[0].path() + ": " + attribute.label();
 }
@@ -106,7 +102,7 @@ void visitPositionGroups(Grid grid, std::vector<PayloadPlan>& payloads,
     for (PiecePlan& piece : payload.pieces) {
       if (grid == Grid::kPrimitive) all.emplace_back();
       for (AttributePlan& attribute : piece.attributes) {
-        if (isBasePosition(attribute) && isFloat(attribute))
+        if (attribute.isBase(Semantic::kPosition) && isFloat(attribute))
           all.back().push_back({&piece, &attribute});
       }
     }
@@ -127,7 +123,7 @@ void visitPositionGroups(Grid grid, std::vector<PayloadPlan>& payloads,
 void noteRoundedWeights(PiecePlan& piece) {
   std::vector<AttributePlan*> sets;
   for (AttributePlan& attribute : piece.attributes) {
-    if (attribute.format.semantic != Semantic::kWeights || attribute.target != kNone) continue;
+    if (!attribute.isBase(Semantic::kWeights)) continue;
     if (!attribute.has_lattice || attribute.lattice != unitLattice(attribute.bits)) return;
     sets.push_back(&attribute);
   }
@@ -213,7 +209,7 @@ class QuantizationPlanner {
     const bool follows_position =
         attribute.format.semantic == Semantic::kPosition && piece.attributes[0].has_lattice;
     if (follows_position && bits == 0) bits = piece.attributes[0].bits;
-    if (!isFloat(attribute) || bits == 0 || isBasePosition(attribute)) return;
+    if (!isFloat(attribute) || bits == 0 || attribute.isBase(Semantic::kPosition)) return;
     Extent extent(attribute.format.component_count);
     Lattice lattice;
     std::string why;  // it stays exact

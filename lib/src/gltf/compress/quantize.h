@@ -35,7 +35,6 @@ bool fitAroundZero(const Extent& extent, float step, Lattice& lattice, uint8_t& 
 bool fitTangents(const Extent& extent, uint8_t bits, Lattice& lattice);
 
 bool isFloat(const AttributePlan& attribute);
-bool isBasePosition(const AttributePlan& attribute);
 
 /// Returns "/meshes/0/primitives/1: POSITION".
 std::string whereIs(const PiecePlan& piece, const AttributePlan& attribute);

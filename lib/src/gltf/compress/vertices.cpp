@@ -1,7 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/compress/vertices.h"
 
-#include <algorithm>
 #include <cstring>
 #include <iterator>
 #include <set>
@@ -61,15 +60,6 @@ void planIndicesOnly(const Document& document, std::vector<PayloadPlan>& payload
   }
 }
 
-AttributeView weldingView(const PiecePlan& piece) {
-  const AttributePlan& position = piece.ordinary[0];
-  AttributeView view;
-  view.format = position.format;
-  view.data = position.source.data;
-  view.stride_bytes = position.source.stride_bytes;
-  return view;
-}
-
 void reorderAttributes(const Document& document, const PiecePlan& piece,
                        const std::vector<uint32_t>& source_wedge, Json& accessors,
                        std::vector<NewView>& views) {
@@ -90,13 +80,6 @@ void reorderAttributes(const Document& document, const PiecePlan& piece,
 }
 
 namespace {
-
-/// Counts the uses of an accessor: each member of a primitive that names it, and one for everything
-/// else.
-uint64_t useCount(const Accessor& accessor) {
-  return uint64_t{accessor.primitive_uses} + accessor.extension_uses +
-         (accessor.isUsedOutsideMeshes() ? 1 : 0);
-}
 
 /// Finds the accessors of vertex numbers of pieces.
 class Collector {
@@ -123,11 +106,13 @@ class Collector {
     std::sort(named.begin(), named.end());
     for (size_t i = 0, end = 0; i < named.size(); i = end) {
       while (end < named.size() && named[end] == named[i]) ++end;
-      const uint32_t accessor = named[i];
-      if (accessor == kNone) return false;
-      const bool is_only_ours = useCount(document_.accessors[accessor]) == end - i;
-      if (!is_only_ours || !canBeChanged(accessor, piece.wedge_count)) return false;
-      piece.vertex_numbers.push_back(accessor);
+      if (named[i] == kNone) return false;
+      const Accessor& accessor = document_.accessors[named[i]];
+      const bool is_only_ours =
+          !accessor.isUsedOutsideMeshes() &&
+          uint64_t{accessor.primitive_uses} + accessor.extension_uses == end - i;
+      if (!is_only_ours || !canBeChanged(named[i], piece.wedge_count)) return false;
+      piece.vertex_numbers.push_back(named[i]);
     }
     return true;
   }
@@ -166,13 +151,6 @@ void planVertexNumbers(const Document& document, std::vector<PayloadPlan>& paylo
     if (!payload.keep_vertex_order) continue;
     for (PiecePlan& piece : payload.pieces) piece.vertex_numbers.clear();
   }
-}
-
-bool isIdentity(const std::vector<uint32_t>& source_wedge) {
-  for (uint32_t i = 0; i < source_wedge.size(); ++i) {
-    if (source_wedge[i] != i) return false;
-  }
-  return true;
 }
 
 void renumberVertices(const Document& document, const PiecePlan& piece,

@@ -5,6 +5,7 @@
 #ifndef MCC_GLTF_COMPRESS_VERTICES_H_
 #define MCC_GLTF_COMPRESS_VERTICES_H_
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,9 +21,6 @@ namespace mcc::gltf {
 /// payload need not store the order. Where something else refers to one of them, the vertex order
 /// is kept instead.
 void planIndicesOnly(const Document& document, std::vector<PayloadPlan>& payloads);
-
-/// Returns the positions of such a piece as the codec gets them, to find those that are equal.
-AttributeView weldingView(const PiecePlan& piece);
 
 /// Gives the ordinary accessors of a piece new views with their elements in decoded order.
 /// accessors  those of the edited document; `views` receives the new views.
@@ -43,8 +41,10 @@ void renumberVertices(const Document& document, const PiecePlan& piece,
                       const std::vector<uint32_t>& source_wedge, Json& accessors,
                       std::vector<NewView>& views);
 
-/// Whether decoded vertices have the numbers of the source.
-bool isIdentity(const std::vector<uint32_t>& source_wedge);
+/// Whether decoded vertices have the numbers of the source, each of which is there once.
+inline bool isIdentity(const std::vector<uint32_t>& source_wedge) {
+  return std::is_sorted(source_wedge.begin(), source_wedge.end());
+}
 
 /// Returns the vertices that a triangle of a piece uses, in ascending order.
 std::vector<uint32_t> usedVertices(const PiecePlan& piece);

@@ -289,16 +289,14 @@ Result decodeViews(const ForeignDecoders& decoders, Document& document, const Do
   visitTrianglePrimitives(document, markUsed);
   if (source != nullptr) visitTrianglePrimitives(*source, markUsed);
   Room room = source == nullptr ? Room(document) : Room();
-  const auto decode = [&](uint32_t number) -> Result {
-    MCC_GLTF_TRY(decodeView(decoders, number, room, document));
-    const BufferView& view = document.views[number];
-    const bool is_first = refused != nullptr && refused->ok();
-    if (is_first && view.isCoded() && !document.isMissing(view.buffer)) *refused = view.fault;
-    return {};
-  };
   for (size_t i = 0; i < is_used.size(); ++i) {
     if (!is_used[i]) continue;
-    for (const uint32_t view : document.accessors[i].views()) MCC_GLTF_TRY(decode(view));
+    for (const uint32_t number : document.accessors[i].views()) {
+      MCC_GLTF_TRY(decodeView(decoders, number, room, document));
+      const BufferView& view = document.views[number];
+      const bool is_first = refused != nullptr && refused->ok();
+      if (is_first && view.isCoded() && !document.isMissing(view.buffer)) *refused = view.fault;
+    }
   }
   return {};
 }

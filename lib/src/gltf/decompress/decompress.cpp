@@ -11,11 +11,8 @@ namespace mcc::gltf {
 namespace {
 
 IndexType indexTypeOf(ComponentType type) {
-  switch (type) {
-    case ComponentType::kUint8: return IndexType::kUint8;
-    case ComponentType::kUint16: return IndexType::kUint16;
-    default: return IndexType::kUint32;
-  }
+  if (type == ComponentType::kUint8) return IndexType::kUint8;
+  return type == ComponentType::kUint16 ? IndexType::kUint16 : IndexType::kUint32;
 }
 
 }  // namespace
@@ -235,12 +232,6 @@ Result PayloadDecoder::decode(uint32_t thread_count, const Place& place) const {
 
 namespace {
 
-void removeExtension(Json& primitive) {
-  Json& extensions = primitive["extensions"];
-  extensions.erase(kExtensionName);
-  if (extensions.empty()) primitive.erase("extensions");
-}
-
 /// Makes the filled accessors read the views, and removes the extension.
 void editJson(const PayloadDecoder& decoder, Json& json) {
   Json& accessors = json["accessors"];
@@ -252,7 +243,9 @@ void editJson(const PayloadDecoder& decoder, Json& json) {
   }
   Json& meshes = json["meshes"];
   for (const ExtensionUse& use : decoder.uses()) {
-    removeExtension(meshes[use.mesh]["primitives"][use.primitive]);
+    Json& primitive = meshes[use.mesh]["primitives"][use.primitive];
+    primitive["extensions"].erase(kExtensionName);
+    if (primitive["extensions"].empty()) primitive.erase("extensions");
   }
   listExtension(json, kExtensionName, false);
 }

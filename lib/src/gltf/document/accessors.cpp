@@ -317,12 +317,8 @@ Bounds boundsOf(std::span<const uint32_t> indices) {
 
 void setBounds(const Bounds& bounds, ComponentType type, bool is_required, Json& accessor) {
   if (!bounds.is_finite) return;
-  if (is_required || findMember(accessor, "min") != nullptr) {
-    accessor["min"] = boundNumbers(bounds.min, type);
-  }
-  if (is_required || findMember(accessor, "max") != nullptr) {
-    accessor["max"] = boundNumbers(bounds.max, type);
-  }
+  if (is_required || accessor.contains("min")) accessor["min"] = boundNumbers(bounds.min, type);
+  if (is_required || accessor.contains("max")) accessor["max"] = boundNumbers(bounds.max, type);
 }
 
 Result checkBound(const Json& accessor, const char* key, const std::vector<double>& decoded,

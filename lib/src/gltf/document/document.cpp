@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <string_view>
 #include <utility>
 
 #include "gltf/document/package.h"
-#include "gltf/document/references.h"
 #include "mcc/decoded_limit.h"
 #include "mcc/glb.h"
 
@@ -279,9 +277,10 @@ Result checkRange(const Document& document, uint32_t view, uint64_t offset, uint
   // There are fewer than 2^32 elements, their stride is at most 2^16, and the offset at most 2^53,
   // so this cannot wrap.
   const uint64_t end = offset + bytes;
-  const uint64_t available = document.views[view].elementsLength();
+  const BufferView& from = document.views[view];
+  const uint64_t available = from.isCoded() ? from.coding.length : from.length;
   if (end <= available) return {};
-  if (document.isMissing(document.views[view].buffer)) return document.views[view].fault;
+  if (document.isMissing(from.buffer)) return from.fault;
   return error(path, "needs ", end, " bytes of bufferView ", view, ", which has ", available);
 }
 
@@ -337,7 +336,7 @@ Result parseType(const Json& json, const std::string& path, Accessor& accessor) 
   return {};
 }
 
-/// Parses one accessor. An error concerns only this accessor.
+/// An error concerns only this accessor.
 Result parseAccessor(const Document& document, const Json& json, const std::string& path,
                      Accessor& accessor) {
   MCC_GLTF_TRY(parseType(json, path, accessor));
@@ -400,12 +399,13 @@ class UseFinder {
       addExtensions(json);
       ++ref.primitive;
     }
-    visitMeshExtensionAccessors(mesh, [&](const Json& number) {
-      if (Accessor* accessor = accessorOf(number)) ++accessor->extension_uses;
-    });
+    for (const std::string_view path : kMeshExtensionAccessors) {
+      visitPath(&mesh, path, [&](const Json& number) {
+        if (Accessor* accessor = accessorOf(number)) ++accessor->extension_uses;
+      });
+    }
   }
 
-  /// Collects the accessors that a primitive names.
   void addAccessors(const Json& json, Primitive& primitive) {
     if (const Json* attributes = findMember(json, "attributes")) {
       addMap(*attributes, "attributes", kNone, primitive);
@@ -585,7 +585,6 @@ bool removeFallback(size_t number, Json& json) {
   return true;
 }
 
-/// A file that images name.
 struct ImageFile {
   std::span<const uint8_t> bytes;
   uint32_t view = kNone;  ///< the view it became, for all images that name it

@@ -7,7 +7,6 @@
 #ifndef MCC_GLTF_DOCUMENT_DOCUMENT_H_
 #define MCC_GLTF_DOCUMENT_DOCUMENT_H_
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -58,8 +57,6 @@ struct BufferView {
   ViewUse use = ViewUse::kReferred;
 
   bool isCoded() const { return !coding.extension.empty(); }
-  /// Number of bytes that accessors may use.
-  uint64_t elementsLength() const { return isCoded() ? coding.length : length; }
 };
 
 /// The numbers that glTF gives the component types, in the order of ComponentType.
@@ -111,14 +108,12 @@ struct Accessor {
   }
   /// Bytes of an element in a buffer.
   uint32_t elementBytes() const { return columns * columnBytes(); }
-  /// The same without the padding of the last column, which the last element may lack.
-  uint32_t lastElementBytes() const {
-    return (columns - 1) * columnBytes() + rows * componentBytes(component_type);
-  }
   /// Bytes from the first element to the end of the last one. `stride` 0: elements are packed.
   uint64_t rangeBytes(uint64_t element_count, uint64_t stride) const {
     if (element_count == 0) return 0;
-    return (element_count - 1) * (stride == 0 ? elementBytes() : stride) + lastElementBytes();
+    // The last element may lack the padding of its last column.
+    const uint32_t last = (columns - 1) * columnBytes() + rows * componentBytes(component_type);
+    return (element_count - 1) * (stride == 0 ? elementBytes() : stride) + last;
   }
 };
 

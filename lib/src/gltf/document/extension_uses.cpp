@@ -6,13 +6,11 @@
 #include <tuple>
 
 #include "gltf/document/accessors.h"
-#include "gltf/document/references.h"
 
 namespace mcc::gltf {
 
 namespace {
 
-/// Returns the code of a malformed payload.
 const char* payloadErrorName(Error error) {
   switch (error) {
     case Error::kTruncated: return "PAYLOAD_TRUNCATED";
@@ -179,7 +177,6 @@ void readExtension(const Document& document, const Json& extension, const Json& 
   readPreview(document, extension, issues, use);
 }
 
-/// Returns the JSON path of an attribute of a primitive.
 std::string pathOf(const Primitive& primitive, const Primitive::Attribute& attribute) {
   const std::string path = primitive.ref.path();
   return at(

@@ -139,7 +139,6 @@ void copyTo(std::vector<uint8_t>& file, uint64_t offset, std::span<const uint8_t
   std::copy(bytes.begin(), bytes.end(), file.begin() + static_cast<ptrdiff_t>(offset));
 }
 
-/// What a GLB is made of.
 struct Parts {
   std::string_view json;
   uint64_t bin_bytes;

@@ -267,7 +267,9 @@ class LayoutBuilder {
   void writeBuffers() {
     const Json old_buffers = arrayOf(json_, "buffers");
     Json buffers = Json::array();
-    nameCodings();
+    // What codes views is required, since their bytes exist nowhere else.
+    for (const char* name : kViewExtensions)
+      listExtension(json_, name, coded_extensions_.contains(name));
     const bool has_bytes = layout_.byte_count != 0;
     if (has_bytes || !coded_extensions_.empty()) buffers.push_back(firstBuffer(old_buffers));
     if (!coded_extensions_.empty()) {
@@ -322,14 +324,6 @@ class LayoutBuilder {
     if (extensions == object.end() || !extensions->is_object()) return;
     for (const char* name : kViewExtensions) extensions->erase(name);
     if (extensions->empty()) object.erase("extensions");
-  }
-
-  /// Lists the extensions of coded views as required, since their bytes exist nowhere else. Removes
-  /// those that are no longer used.
-  void nameCodings() {
-    for (const char* name : kViewExtensions) {
-      listExtension(json_, name, coded_extensions_.contains(name));
-    }
   }
 
   const Document& document_;

@@ -3,21 +3,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <set>
-#include <string_view>
 
 #include "gltf/document/references.h"
 #include "host/text.h"
 
 namespace mcc::gltf {
 namespace {
-
-int hexDigit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
 
 bool decodePercent(const std::string& text, std::string& decoded) {
   decoded.clear();
@@ -26,11 +19,12 @@ bool decodePercent(const std::string& text, std::string& decoded) {
       decoded += text[i];
       continue;
     }
-    const int high = i + 2 < text.size() ? hexDigit(text[i + 1]) : -1;
-    const int low = high >= 0 ? hexDigit(text[i + 2]) : -1;
-    if (low < 0) return false;
-    decoded += static_cast<char>(high * 16 + low);
+    uint8_t code = 0;
+    const char* const digits = text.data() + i + 1;
     i += 2;
+    if (i >= text.size() || std::from_chars(digits, digits + 2, code, 16).ptr != digits + 2)
+      return false;
+    decoded += static_cast<char>(code);
   }
   return true;
 }
@@ -60,28 +54,20 @@ bool decodeBase64(const std::string& text, size_t begin, std::vector<uint8_t>& b
     }
   }
   if (bit_count == 6) return false;  // a single digit is less than a byte
-  for (; i < text.size(); ++i) {
-    if (text[i] != '=') return false;
-  }
-  return true;
+  return text.find_first_not_of('=', i) == std::string::npos;
 }
 
 /// Whether the text starts with "name:", which is a URI scheme or a drive letter.
 bool hasScheme(const std::string& text) {
-  for (const char c : text) {
-    if (c == ':') return true;
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '+' && c != '-' && c != '.') {
-      return false;
-    }
-  }
-  return false;
+  const auto end = std::find_if(text.begin(), text.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '+' && c != '-' && c != '.';
+  });
+  return end != text.end() && *end == ':';
 }
 
 bool hasControlCharacter(const std::string& text) {
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) return true;
-  }
-  return false;
+  return std::any_of(text.begin(), text.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
 }
 
 /// Whether all parts of a path between its '/' pass.
@@ -164,9 +150,7 @@ Result relativePathOf(const std::string& uri, const std::string& where, std::str
   if (hasScheme(uri) || hasScheme(path)) {
     return error(where, "the URI ", quoted(uri), " is not relative and is refused", advice);
   }
-  for (char& c : path) {
-    if (c == '\\') c = '/';
-  }
+  std::replace(path.begin(), path.end(), '\\', '/');
   if (path.front() == '/') {
     return error(where, "the URI ", quoted(uri), " is absolute and is refused", advice);
   }
@@ -394,10 +378,9 @@ std::vector<std::string> filesOf(const Json& json, const char* list) {
   listUris(json, list, uris);
   std::vector<std::string> paths;
   std::set<std::string> seen;
+  std::string path;
   for (const auto& [uri, where] : uris) {
-    std::string path;
-    const bool is_new = relativePathOf(uri, where, path).ok() && seen.insert(path).second;
-    if (is_new) paths.push_back(path);
+    if (relativePathOf(uri, where, path).ok() && seen.insert(path).second) paths.push_back(path);
   }
   return paths;
 }

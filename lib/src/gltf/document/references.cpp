@@ -1,7 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 #include "gltf/document/references.h"
 
-#include <algorithm>
 #include <array>
 #include <cctype>
 
@@ -38,28 +37,26 @@ bool hasOnlyWithExtras(const Json& object, const Names& names) {
 /// depends on an order.
 bool areGroups(const Json& restart) {
   if (!hasOnlyWithExtras(restart, {"primitiveGroups"})) return false;
-  const Json* groups = findMember(restart, "primitiveGroups");
-  if (groups == nullptr || !groups->is_array()) return false;
-  return std::all_of(groups->begin(), groups->end(), [](const Json& group) {
-    if (!hasOnlyWithExtras(group, {"primitives", "indices", "name"})) return false;
-    const Json* primitives = findMember(group, "primitives");
-    uint64_t number = 0;
-    return primitives != nullptr && primitives->is_array() &&
-           std::all_of(primitives->begin(), primitives->end(),
-                       [&](const Json& primitive) { return asUnsigned(primitive, number); });
-  });
+  const Json& groups = restart["primitiveGroups"];
+  return groups.is_array() && std::all_of(groups.begin(), groups.end(), [](const Json& group) {
+           const Json& primitives = group["primitives"];
+           uint64_t number = 0;
+           return hasOnlyWithExtras(group, {"primitives", "indices", "name"}) &&
+                  primitives.is_array() &&
+                  std::all_of(primitives.begin(), primitives.end(),
+                              [&](const Json& primitive) { return asUnsigned(primitive, number); });
+         });
 }
 
 /// Whether every set of feature ids is an attribute, which moves with its vertices, or a texture.
 /// Without either, the id of a vertex is its number.
 bool hasExplicitIds(const Json& features) {
   if (!hasOnly(features, {"featureIds"})) return false;
-  const Json* sets = findMember(features, "featureIds");
-  if (sets == nullptr || !sets->is_array() || sets->empty()) return false;
-  return std::all_of(sets->begin(), sets->end(), [](const Json& set) {
+  const Json& sets = arrayOf(features, "featureIds");
+  return !sets.empty() && std::all_of(sets.begin(), sets.end(), [](const Json& set) {
     return hasOnly(set, {"featureCount", "nullFeatureId", "label", "attribute", "texture",
                          "propertyTable"}) &&
-           (findMember(set, "attribute") != nullptr || findMember(set, "texture") != nullptr);
+           (set.contains("attribute") || set.contains("texture"));
   });
 }
 
@@ -182,15 +179,6 @@ constexpr AccessorMember kAccessorMembers[] = {
     {"EXT_mesh_primitive_edge_visibility", "silhouetteMates", ExtensionAccessor::kOther},
     {"EXT_mesh_primitive_edge_visibility", "silhouetteNormals", ExtensionAccessor::kOther},
     {"EXT_mesh_primitive_edge_visibility", "lineStrings/[]/indices", ExtensionAccessor::kOther},
-};
-
-/// The same in the extensions of a mesh.
-constexpr std::string_view kMeshExtensionAccessors[] = {
-    "extensions/EXT_mesh_primitive_restart/primitiveGroups/[]/indices",
-    "extensions/EXT_mesh_manifold/mergeIndices",
-    "extensions/EXT_mesh_manifold/mergeValues",
-    "extensions/EXT_mesh_manifold/manifoldPrimitive/indices",
-    "extensions/EXT_mesh_manifold/manifoldPrimitive/attributes/{}",
 };
 
 const KnownExtension* findKnown(std::string_view name) {
@@ -332,10 +320,6 @@ void visitExtensionAccessors(const Json& primitive,
   }
 }
 
-void visitMeshExtensionAccessors(const Json& mesh, const std::function<void(const Json&)>& visit) {
-  for (const std::string_view path : kMeshExtensionAccessors) visitPath(&mesh, path, visit);
-}
-
 bool isMissing(const Json& number, size_t accessor_count) {
   uint64_t accessor = 0;
   return asUnsigned(number, accessor) && accessor >= accessor_count;
@@ -373,24 +357,17 @@ ForeignReferences findForeignReferences(const Json& root) {
 }
 
 std::string orderDependentPart(const Json& mesh_or_primitive, NumbersOfVertices numbers) {
-  if (const Json* extensions = findMember(mesh_or_primitive, "extensions");
-      extensions != nullptr && extensions->is_object()) {
-    for (const auto& [name, value] : extensions->items()) {
-      const KnownExtension* known = findKnown(name);
-      const bool is_free =
-          (known != nullptr && known->is_order_free(value)) ||
-          (numbers == NumbersOfVertices::kCanChange && isRenumberable(name, value));
-      if (!is_free) return name;
-    }
+  for (const auto& [name, value] : mesh_or_primitive["extensions"].items()) {
+    const KnownExtension* known = findKnown(name);
+    const bool is_free = (known != nullptr && known->is_order_free(value)) ||
+                         (numbers == NumbersOfVertices::kCanChange && isRenumberable(name, value));
+    if (!is_free) return name;
   }
-  const Json* extras = findMember(mesh_or_primitive, "extras");
-  return extras == nullptr ? "" : orderWordOf(*extras);
+  return orderWordOf(mesh_or_primitive["extras"]);
 }
 
 std::string unknownExtension(const Json& object) {
-  const Json* extensions = findMember(object, "extensions");
-  if (extensions == nullptr || !extensions->is_object()) return "";
-  for (const auto& [name, value] : extensions->items()) {
+  for (const auto& [name, value] : object["extensions"].items()) {
     if (!isKnownExtension(name)) return name;
   }
   return "";

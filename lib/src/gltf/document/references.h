@@ -138,9 +138,14 @@ enum class ExtensionAccessor : uint8_t {
 void visitExtensionAccessors(
     const Json& primitive,
     const std::function<void(const Json& number, ExtensionAccessor what)>& visit);
-/// Calls visit(number) for each accessor number in the extensions of a mesh itself.
-void visitMeshExtensionAccessors(const Json& mesh,
-                                 const std::function<void(const Json& number)>& visit);
+/// Where the extensions of a mesh itself name accessors.
+inline constexpr std::string_view kMeshExtensionAccessors[] = {
+    "extensions/EXT_mesh_primitive_restart/primitiveGroups/[]/indices",
+    "extensions/EXT_mesh_manifold/mergeIndices",
+    "extensions/EXT_mesh_manifold/mergeValues",
+    "extensions/EXT_mesh_manifold/manifoldPrimitive/indices",
+    "extensions/EXT_mesh_manifold/manifoldPrimitive/attributes/{}",
+};
 
 /// Whether accessors hold numbers of 64 bits: component types 5130, 5134 and 5135 of glTF 2.1.
 bool hasWideAccessors(const Json& root);

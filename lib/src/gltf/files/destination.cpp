@@ -5,7 +5,6 @@
 #include <chrono>
 #include <system_error>
 
-#include "gltf/document/package.h"
 #include "host/system.h"
 #include "host/text.h"
 #include "host/work_lock.h"

@@ -5,11 +5,9 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <optional>
 #include <system_error>
 
 #include "gltf/document/package.h"
-#include "host/system.h"
 #include "host/text.h"
 
 namespace mcc::gltf {

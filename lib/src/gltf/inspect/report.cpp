@@ -7,14 +7,11 @@
 #include "format/codings.h"
 #include "format/methods.h"
 #include "format/predictors.h"
-#include "gltf/check/prove.h"
 #include "gltf/compress/quality.h"
 #include "gltf/decompress/decompress.h"
 #include "gltf/files/file_io.h"
 #include "host/parallel.h"
-#include "json/json.h"
 #include "mcc/files.h"
-#include "mcc/glb.h"
 #include "mcc/writer.h"
 
 namespace mcc::gltf {
@@ -57,9 +54,8 @@ void addAttributeBits(const EncodedPayload& payload, const std::vector<size_t>& 
   for (size_t i = 0; i < payload.plan.pieces.size(); ++i) {
     for (const AttributePlan& attribute : payload.plan.pieces[i].attributes) {
       double bits = next < sizes.attribute_bits.size() ? sizes.attribute_bits[next] : 0;
-      const bool is_position = attribute.format.semantic == Semantic::kPosition &&
-                               attribute.target == kNone && i < sizes.piece_position_bits.size();
-      if (is_position) bits += sizes.piece_position_bits[i];
+      if (attribute.isBase(Semantic::kPosition) && i < sizes.piece_position_bits.size())
+        bits += sizes.piece_position_bits[i];
       attributes[rows[next++]].coded_bits += bits;
     }
   }
@@ -373,6 +369,9 @@ Json inspectJson(const std::string& input, const InspectReport& report) {
           {"payloads", payloads}};
 }
 
+namespace {
+
+/// Describes a predictor byte in the specification's words: "weights, palette". Empty for an alias.
 std::string predictorName(AttributeInfos attributes, uint32_t index) {
   const MethodInfo& method = infoOf(methodOf(attributes, index));
   std::string name = method.word;
@@ -382,8 +381,6 @@ std::string predictorName(AttributeInfos attributes, uint32_t index) {
   }
   return name;
 }
-
-namespace {
 
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "format/methods.h"
 #include "gltf/check/prove.h"
 #include "gltf/compress/compress.h"
 #include "json/json.h"
@@ -41,10 +40,6 @@ std::string typeText(const AttributeInfo& attribute);
 
 /// Returns "manifold", "cut", …
 std::string surfaceName(SurfaceCoding surface);
-
-/// Describes the predictor byte of attribute `index` of a piece in the specification's words:
-/// "weights, palette". Empty for an alias.
-std::string predictorName(AttributeInfos attributes, uint32_t index);
 
 }  // namespace mcc::gltf
 
