@@ -204,11 +204,7 @@ class Checker {
     AccessorData written_values;
     MCC_GLTF_TRY(readAccessor(source_, attribute.accessor, source_values));
     MCC_GLTF_TRY(readAccessor(written_, index, written_values));
-    AttributeReport ignored;
-    ignored.name = attribute.label();
-    std::vector<float> no_angles;
-    return compareValues(source_values, written_values, source_of, attribute.format, Promise{},
-                         ignored, no_angles);
+    return compareExact(source_values, written_values, source_of, attribute.label());
   }
 
   /// Checks that an accessor of vertex numbers still names the vertices that it named in the

@@ -24,6 +24,17 @@ bool isBase(const AttributeFormat& format, Semantic semantic) {
   return format.semantic == semantic && format.morph_target == 0;
 }
 
+/// How far a decoded value may be from its source.
+struct Promise {
+  enum class Kind : uint8_t { kExact, kLattice, kAngle };
+  Kind kind = Kind::kExact;
+  double step = 0;        ///< for kLattice: the lattice step
+  double half_steps = 1;  ///< for kLattice: 1 for rounding, 2 for weights moved to a sum of one
+  double origin[4] = {0, 0, 0, 0};
+  double radians = 0;   ///< for kAngle
+  double distance = 0;  ///< for positions: between two points; 0: none promised
+};
+
 Result promiseAngle(const AttributePlan& plan, double radians, Promise& promise) {
   promise.kind = Promise::Kind::kAngle;
   promise.radians = radians;
@@ -73,6 +84,16 @@ Deviation angleDeviation(const double* source, const double* decoded, const Prom
   return deviation;
 }
 
+/// Returns the largest deviation of a decoded value that the promise allows, from lattice rounding
+/// and the two float32 roundings of decoding.
+double latticeBound(const Promise& promise, uint32_t component, double decoded) {
+  // |fl(q * step) - q * step| and |fl(sum) - sum| are at most 2^-24 of the result. The writer
+  // computes its quotient in binary64, so it may miss the middle between two points by very little.
+  const double scaled = std::abs(decoded - promise.origin[component]);
+  const double rounding = std::ldexp(1.01 * (scaled + std::abs(decoded)), -24);
+  return promise.half_steps * promise.step / 2 * (1 + 1e-7) + rounding + 1e-44;
+}
+
 Deviation latticeDeviation(const double* source, const double* decoded, uint32_t component_count,
                            const Promise& promise) {
   Deviation deviation;
@@ -91,36 +112,9 @@ Result tooFar(const AttributeReport& report, uint64_t index, double off, bool is
                (is_angle ? " degrees" : ""), ", more than promised");
 }
 
-Result compareExact(const AccessorData& source, const AccessorData& decoded,
-                    std::span<const uint32_t> source_of, const AttributeReport& report) {
-  for (uint64_t i = 0; i < decoded.count; ++i) {
-    const auto a = source.element(source_of[i]);
-    const auto b = decoded.element(i);
-    if (!std::equal(a.begin(), a.end(), b.begin(), b.end())) {
-      return error("", report.name, " of decoded vertex ", i, " differs but should be exact");
-    }
-  }
-  return {};
-}
-
-}  // namespace
-
-/// Half a step of the angle, plus the normal's bound, by which the plane of the angle is off, plus
-/// a margin for source tangents that are not quite perpendicular to their normals.
-double tangentBound(uint32_t bits, uint32_t normal_bits) {
-  constexpr double kPerpendicular = 0.0025;
-  return std::numbers::pi / static_cast<double>(uint64_t{1} << bits) + kPerpendicular +
-         octahedralBound(normal_bits);
-}
-
-double latticeBound(const Promise& promise, uint32_t component, double decoded) {
-  // |fl(q * step) - q * step| and |fl(sum) - sum| are at most 2^-24 of the result. The writer
-  // computes its quotient in binary64, so it may miss the middle between two points by very little.
-  const double scaled = std::abs(decoded - promise.origin[component]);
-  const double rounding = std::ldexp(1.01 * (scaled + std::abs(decoded)), -24);
-  return promise.half_steps * promise.step / 2 * (1 + 1e-7) + rounding + 1e-44;
-}
-
+/// Finds the promise that follows from the plan and from how the payload codes the attribute. Fails
+/// when the coding is coarser than planned.
+/// normal_bits  the bits of the piece's NORMAL, since the angles of tangents are angles around it.
 Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, uint8_t normal_bits,
                  Promise& promise) {
   promise = {};
@@ -142,11 +136,13 @@ Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, uint8_t 
   return error("", plan.label(), " is coded with fewer bits than asked for");
 }
 
+/// Compares decoded elements like compareExact(), but with what was promised. Sets promised_error,
+/// max_error and is_angle of `report`, and adds angles to `angles`.
 Result compareValues(const AccessorData& source, const AccessorData& decoded,
                      std::span<const uint32_t> source_of, const AttributeFormat& format,
                      const Promise& promise, AttributeReport& report, std::vector<float>& angles) {
   if (promise.kind == Promise::Kind::kExact) {
-    return compareExact(source, decoded, source_of, report);
+    return compareExact(source, decoded, source_of, report.name);
   }
   const bool is_angle = promise.kind == Promise::Kind::kAngle;
   const double unit = is_angle ? kDegrees : 1;
@@ -174,24 +170,6 @@ Result compareValues(const AccessorData& source, const AccessorData& decoded,
   }
   return {};
 }
-
-std::vector<Triangle> canonicalTriangles(std::span<const uint32_t> indices,
-                                         std::span<const uint32_t> source_of) {
-  std::vector<Triangle> triangles(indices.size() / 3);
-  for (size_t i = 0; i < triangles.size(); ++i) {
-    Triangle corners = {indices[3 * i], indices[3 * i + 1], indices[3 * i + 2]};
-    if (!source_of.empty()) {
-      for (uint32_t& corner : corners) corner = source_of[corner];
-    }
-    const Triangle second = {corners[1], corners[2], corners[0]};
-    const Triangle third = {corners[2], corners[0], corners[1]};
-    triangles[i] = std::min({corners, second, third});
-  }
-  std::sort(triangles.begin(), triangles.end());
-  return triangles;
-}
-
-namespace {
 
 class Prover {
  public:
@@ -295,9 +273,7 @@ class Prover {
 
   static uint8_t normalBits(const PiecePlan& piece) {
     for (const AttributePlan& attribute : piece.attributes) {
-      const bool is_normal =
-          attribute.format.semantic == Semantic::kNormal && attribute.target == kNone;
-      if (is_normal) return attribute.bits;
+      if (attribute.isBase(Semantic::kNormal)) return attribute.bits;
     }
     return 0;
   }
@@ -385,6 +361,42 @@ class Prover {
 };
 
 }  // namespace
+
+/// Half a step of the angle, plus the normal's bound, by which the plane of the angle is off, plus
+/// a margin for source tangents that are not quite perpendicular to their normals.
+double tangentBound(uint32_t bits, uint32_t normal_bits) {
+  constexpr double kPerpendicular = 0.0025;
+  return std::numbers::pi / static_cast<double>(uint64_t{1} << bits) + kPerpendicular +
+         octahedralBound(normal_bits);
+}
+
+Result compareExact(const AccessorData& source, const AccessorData& decoded,
+                    std::span<const uint32_t> source_of, const std::string& label) {
+  for (uint64_t i = 0; i < decoded.count; ++i) {
+    const auto a = source.element(source_of[i]);
+    const auto b = decoded.element(i);
+    if (!std::equal(a.begin(), a.end(), b.begin(), b.end())) {
+      return error("", label, " of decoded vertex ", i, " differs but should be exact");
+    }
+  }
+  return {};
+}
+
+std::vector<Triangle> canonicalTriangles(std::span<const uint32_t> indices,
+                                         std::span<const uint32_t> source_of) {
+  std::vector<Triangle> triangles(indices.size() / 3);
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    Triangle corners = {indices[3 * i], indices[3 * i + 1], indices[3 * i + 2]};
+    if (!source_of.empty()) {
+      for (uint32_t& corner : corners) corner = source_of[corner];
+    }
+    const Triangle second = {corners[1], corners[2], corners[0]};
+    const Triangle third = {corners[2], corners[0], corners[1]};
+    triangles[i] = std::min({corners, second, third});
+  }
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
 
 Result checkFailed(Result result, const std::string& where) {
   constexpr std::string_view kBegin = "the check of the result failed: ";

@@ -18,36 +18,14 @@
 
 namespace mcc::gltf {
 
-/// How far a decoded value may be from its source.
-struct Promise {
-  enum class Kind : uint8_t { kExact, kLattice, kAngle };
-  Kind kind = Kind::kExact;
-  double step = 0;        ///< for kLattice: the lattice step
-  double half_steps = 1;  ///< for kLattice: 1 for rounding, 2 for weights moved to a sum of one
-  double origin[4] = {0, 0, 0, 0};
-  double radians = 0;   ///< for kAngle
-  double distance = 0;  ///< for positions: between two points; 0: none promised
-};
-
 /// Returns the largest angle, in radians, between a tangent and its coded angle around a normal on
 /// an octahedral grid; octahedralBound() is that of normals.
 double tangentBound(uint32_t bits, uint32_t normal_bits);
 
-/// Finds the promise that follows from the plan and from how the payload codes the attribute. Fails
-/// when the coding is coarser than planned.
-/// normal_bits  the bits of the piece's NORMAL, since the angles of tangents are angles around it.
-Result promiseOf(const AttributePlan& plan, const AttributeInfo& coded, uint8_t normal_bits,
-                 Promise& promise);
-
-/// Returns the largest deviation of a decoded value that the promise allows, from lattice rounding
-/// and the two float32 roundings of decoding.
-double latticeBound(const Promise& promise, uint32_t component, double decoded);
-
-/// Compares decoded elements with source elements: decoded element i belongs to source_of[i]. Sets
-/// promised_error, max_error and is_angle of `report`, and adds angles to `angles`.
-Result compareValues(const AccessorData& source, const AccessorData& decoded,
-                     std::span<const uint32_t> source_of, const AttributeFormat& format,
-                     const Promise& promise, AttributeReport& report, std::vector<float>& angles);
+/// Compares decoded elements of an attribute with source elements, bit for bit: decoded element i
+/// belongs to source_of[i].
+Result compareExact(const AccessorData& source, const AccessorData& decoded,
+                    std::span<const uint32_t> source_of, const std::string& label);
 
 using Triangle = std::array<uint32_t, 3>;
 
