@@ -8,8 +8,9 @@ export { preload } from './threads.mjs';
 
 export interface PluginOptions extends UnpackOptions {
   /**
-   * Makes quantised attributes integers, as KHR_mesh_quantization allows them. They take less memory on the graphics card. Positions, weights
-   * and morph targets stay float.
+   * Makes quantised attributes integers, as KHR_mesh_quantization allows them. They take less memory on the graphics card. The lattice of
+   * positions becomes part of the mesh's `position` and `scaling`. Weights, morph targets and positions of skinned meshes stay float, as do
+   * those of meshes whose place is not their own.
    */
   integers?: boolean;
 }

@@ -28,6 +28,8 @@ class MeshCollapseExtension {
   #loader;
   #options;
   #views;
+  /** BabylonIntegers, when a payload has been decoded and they are wanted. */
+  #integers;
 
   constructor(loader, options) {
     this.#loader = loader;
@@ -45,7 +47,10 @@ class MeshCollapseExtension {
     const { gltf } = loader;
     const fetchPayload = (bufferView) => loader.loadBufferViewAsync(`/bufferViews/${bufferView}`, gltf.bufferViews[bufferView]);
     this.#views = new PayloadViews(gltf, fetchPayload, this.#options, undefined,
-      this.#options?.integers && (async (...given) => (await rarelyNeeded()).makeIntegers(gltf, ...given)));
+      this.#options?.integers && (async (...given) => {
+        const { BabylonIntegers } = await rarelyNeeded();
+        await (this.#integers ??= new BabylonIntegers(gltf)).makeIntegers(...given);
+      }));
     gltf.accessors = this.#views.accessors;
     gltf.bufferViews = this.#views.bufferViews;
     gltf.bufferViews.forEach((view, index) => { view.index = index; });
@@ -55,5 +60,14 @@ class MeshCollapseExtension {
   // Called by the loader for every buffer view; null leaves it to other extensions.
   loadBufferViewAsync(context, bufferView) {
     return this.#views?.load(bufferView.index) ?? null;
+  }
+
+  // Called by the loader for every primitive of every node; null leaves it to others.
+  _loadMeshPrimitiveAsync(context, name, node, mesh, primitive, assign) {
+    if (!this.#options?.integers) return null;
+    return this.#loader._loadMeshPrimitiveAsync(context, name, node, mesh, primitive, assign).then((loaded) => {
+      this.#integers?.place(loaded, primitive);
+      return loaded;
+    });
   }
 }

@@ -26,11 +26,10 @@ const UNSIGNED = [{ IntegerArray: Uint8Array, componentType: 5121, last: 255 }, 
  * @param {object} lists  { accessors, bufferViews } of PayloadViews, which are changed
  * @param {import('./types.mjs').DecodedPayload} decoded
  * @param {object} payload  of payloadsOf()
- * @param {{ has(accessor: number): boolean }} [stay]  accessors of positions that stay float; without it all do, for engines that cannot take a
- *   lattice without another node
+ * @param {Set<number>} stay  accessors of positions that stay float
  * @returns {Promise<Map<number, { step: number, origin: number[] }>>}  by accessor of positions: they are origin + step * integer
  */
-export async function makeIntegers({ accessors, bufferViews }, { pieces }, { targets }, stay = { has: () => true }) {
+export async function makeIntegers({ accessors, bufferViews }, { pieces }, { targets }, stay) {
   const attributeOf = ({ piece, attribute }) => pieces[piece].attributes[attribute];
   const fixed = new Set(targets.filter(({ accessor }) => stay.has(accessor)).map(attributeOf)
     .filter((attribute) => attribute?.semantic === POSITION));

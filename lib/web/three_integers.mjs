@@ -4,31 +4,7 @@
 // mesh's own place, or of what comes before the joints of a skinned one. GLTFLoader makes one Mesh of a mesh with one primitive, which also
 // is its node, else a Group of them.
 import { makeIntegers } from './integers.mjs';
-
-/** Of what payloadsOf() has not checked. */
-const listOf = (value) => (Array.isArray(value) ? value : []);
-
-/**
- * Lists the positions that must stay as they are: accessors of meshes whose place is not theirs alone, or means something else. These have
- * morph targets, instances or a volume, or are a node that is animated or has children. Joints place a skinned mesh, whatever its node
- * does, unless another node shows it without them.
- * @param {object} json a document that payloadsOf() has checked
- * @returns {Set<number>}
- */
-function fixedPositions({ meshes = [], nodes = [], materials = [], animations = [] }) {
-  const targets = animations.flatMap(({ channels }) => listOf(channels)).map((channel) => channel?.target);
-  const moved = new Set(targets.filter((target) => target?.path !== 'weights').map((target) => target?.node));
-  const skinned = new Set(nodes.filter(({ skin }) => skin !== undefined).map(({ mesh }) => mesh));
-  const isFixedNode = ({ mesh, skin, children, camera, extensions }, index) => extensions?.EXT_mesh_gpu_instancing !== undefined
-    || (skin === undefined && (skinned.has(mesh)
-      || (listOf(meshes[mesh]?.primitives).length === 1 && (children?.length > 0 || camera !== undefined || extensions !== undefined
-        || moved.has(index) || moved.has(undefined))))); // undefined: a pointer to anything
-  const fixed = new Set(nodes.filter(isFixedNode).map(({ mesh }) => mesh));
-  const hasVolume = ({ material }) => materials?.[material]?.extensions?.KHR_materials_volume !== undefined;
-  const isFixed = ({ primitives }, index) => fixed.has(index)
-    || listOf(primitives).some((primitive) => primitive.targets !== undefined || hasVolume(primitive));
-  return new Set(meshes.filter(isFixed).flatMap(({ primitives }) => listOf(primitives).map(({ attributes }) => attributes?.POSITION)));
-}
+import { fixedPositions, listOf } from './lattices.mjs';
 
 /** GLTFLoader's meshes and nodes, with their places. */
 export class IntegerMeshes {
@@ -47,7 +23,7 @@ export class IntegerMeshes {
   /** For PayloadViews. */
   async makeIntegers(decoded, payload) {
     const { json } = this.#parser;
-    this.#fixed ??= fixedPositions(json);
+    this.#fixed ??= fixedPositions(json, false);
     for (const [accessor, place] of await makeIntegers(json, decoded, payload, this.#fixed)) this.#places.set(accessor, place);
   }
 

@@ -3,12 +3,14 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { NullEngine } from '@babylonjs/core/Engines/nullEngine.js';
 import { LoadAssetContainerAsync } from '@babylonjs/core/Loading/sceneLoader.js';
+import { Vector3 } from '@babylonjs/core/Maths/math.vector.js';
 import { Logger } from '@babylonjs/core/Misc/logger.js';
 import { Scene } from '@babylonjs/core/scene.js';
 import '@babylonjs/loaders/glTF/2.0/index.js';
 import '@babylonjs/loaders/glTF/glTFFileLoader.js';
 import './support/peers.mjs';
 import { decodePayload, unpackGlb } from '../../lib/web/index.mjs';
+import { readGlb, writeGlb } from '../../lib/web/unpack.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
 import { refusesNegatives } from './support/loaders.mjs';
 import { binOf, previewedGlb } from './support/previews.mjs';
@@ -81,16 +83,85 @@ test('Babylon.js loads what has a fallback without the fallback', async () => {
   assert.equal(indices.length, 3 * 4096);
 });
 
-test('Babylon.js keeps positions, joints and weights float with integers, also of a skinned mesh', async (context) => {
-  context.after(() => registerMeshCollapse());
-  registerMeshCollapse({ integers: true });
+/** Changes the document of a GLB. */
+function changed(glb, change) {
+  const { json, chunks } = readGlb(glb);
+  change(json);
+  return writeGlb(json, chunks);
+}
+
+/** What a scene has of a model: of each mesh its types, and its vertices and its box in the world. */
+async function inWorld(glb, options) {
+  registerMeshCollapse(options);
   const scene = new Scene(engine);
-  const { meshes } = await LoadAssetContainerAsync(convert(readSample('skinned')), scene, { pluginExtension: '.glb' });
-  const [skinned] = meshes.filter(({ geometry }) => geometry);
-  const typesOf = (mesh) => Object.fromEntries(mesh.getVerticesDataKinds().map((kind) => [kind, mesh.getVertexBuffer(kind).type]));
-  const { position, normal, matricesWeights } = typesOf(skinned);
-  assert.deepEqual({ position, normal, matricesWeights }, { position: 5126, normal: 5122, matricesWeights: 5126 });
-  scene.dispose();
+  try {
+    const { meshes } = await LoadAssetContainerAsync(glb, scene, { pluginExtension: '.glb' });
+    return meshes.filter(({ geometry }) => geometry).map((mesh) => {
+      mesh.computeWorldMatrix(true);
+      const world = mesh.getWorldMatrix();
+      const corners = mesh.getVerticesData('position');
+      const points = Array.from({ length: corners.length / 3 }, (_, i) => Vector3.TransformCoordinates(Vector3.FromArray(corners, 3 * i), world).asArray());
+      const { minimumWorld, maximumWorld } = mesh.getBoundingInfo().boundingBox;
+      const types = Object.fromEntries(mesh.geometry.getVerticesDataKinds().map((kind) => [kind, mesh.geometry.getVertexBuffer(kind).type]));
+      return { types, points, box: [minimumWorld.asArray(), maximumWorld.asArray()], isInstance: mesh.isAnInstance };
+    });
+  } finally {
+    scene.dispose();
+    registerMeshCollapse();
+  }
+}
+
+/** Loads with integers and with floats, checks that everything is in the same places, and returns the types of each mesh with integers. */
+async function loadBoth(glb) {
+  const [found, expected] = [await inWorld(glb, { integers: true }), await inWorld(glb)];
+  assert.equal(found.length, expected.length);
+  for (const [m, { points, box, isInstance }] of expected.entries()) {
+    assert.equal(found[m].isInstance, isInstance);
+    const distance = (a, b) => Math.hypot(...a.map((value, c) => value - b[c]));
+    const slack = 1e-6 * (distance(...box) + Math.hypot(...box[0]));
+    for (const [i, point] of points.entries()) assert.ok(distance(point, found[m].points[i]) <= slack, `vertex ${i}: ${found[m].points[i]} and ${point}`);
+    for (const [end, corner] of box.entries()) assert.ok(distance(corner, found[m].box[end]) <= slack, `box: ${found[m].box[end]} and ${corner}`);
+  }
+  return found.map(({ types }) => types);
+}
+
+test('Babylon.js gets integers if it is asked for them, in the same places', async () => {
+  const [usual] = await loadBoth(convert(readSample('textured')));
+  assert.deepEqual(usual, { position: 5123, normal: 5122, tangent: 5122, uv: 5123 });
+  const several = convert(readSample('shared_vertices'));
+  assert.deepEqual((await loadBoth(several)).map(({ position }) => position), [5123, 5123, 5123]);
+  const [{ position }] = await loadBoth(convert(readSample('textured'), ['--lossless']));
+  assert.equal(position, 5126);
+  await loadBoth(convert(readSample('quantized')));
+});
+
+test('Babylon.js keeps positions float where a lattice would move something else', async () => {
+  const glb = convert(readSample('textured'));
+  const positionsOf = async (change, source = glb) => (await loadBoth(changed(source, change))).map(({ position }) => position);
+  const node = ({ nodes }) => nodes.find(({ mesh }) => mesh === 0);
+  const turned = { translation: [1, 2, 3], rotation: [0.6, 0, 0, 0.8], scale: [1, 2, -3] };
+  const twice = (json) => {
+    json.nodes.push({ mesh: 0, ...turned });
+    json.scenes[0].nodes.push(json.nodes.length - 1);
+  };
+  const parent = (json) => {
+    json.nodes.push({ mesh: 0, translation: [5, 5, 5] });
+    Object.assign(node(json), { ...turned, children: [json.nodes.length - 1] });
+  };
+  assert.deepEqual(await positionsOf((json) => Object.assign(node(json), turned)), [5123]);
+  assert.deepEqual(await positionsOf((json) => Object.assign(node(json), { matrix: [0, 2, 0, 0, -1, 0, 0, 0, 0, 0, 3, 0, 7, 8, 9, 1] })), [5123]);
+  assert.deepEqual(await positionsOf(twice), [5123, 5123], 'two nodes with one mesh');
+  assert.deepEqual(await positionsOf(parent), [5126, 5126], 'a node with a child');
+  assert.deepEqual(new Set(await positionsOf(parent, convert(readSample('two_materials')))), new Set([5123]), 'a node of primitives, with a child');
+  assert.deepEqual(await positionsOf((json) => {
+    json.materials[0].extensions = { KHR_materials_volume: { thicknessFactor: 1 } };
+    json.extensionsUsed.push('KHR_materials_volume');
+  }), [5126], 'a volume');
+  for (const name of ['skinned', 'morphed']) {
+    const [{ position, normal, matricesWeights }] = await loadBoth(convert(readSample(name)));
+    assert.deepEqual([position, normal], [5126, 5122], name);
+    assert.ok(matricesWeights === 5126 || name === 'morphed', name);
+  }
 });
 
 /** The corners of the box of each mesh, in the world. */
