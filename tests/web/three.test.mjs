@@ -5,8 +5,9 @@ import './support/peers.mjs';
 import { Box3, DoubleSide, Group, Scene, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { createDecoderPool, decodePayload } from '../../lib/web/index.mjs';
-import { readGlb, writeGlb } from '../../lib/web/unpack.mjs';
+import { readGlb } from '../../lib/web/unpack.mjs';
 import { blocksGlb, trianglesOf, trianglesOfBlocks } from './support/blocks.mjs';
+import { changed, skinnedAlone } from './support/changed.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
 import { compareWithManifest, refusesNegatives } from './support/loaders.mjs';
 import { binOf, previewedGlb } from './support/previews.mjs';
@@ -106,13 +107,6 @@ const meshesOf = ({ scene }) => scene.getObjectsByProperty('isMesh', true);
 const typeOf = (attribute) => (attribute.data ?? attribute).array.constructor.name;
 const typesOf = ({ geometry }) => Object.fromEntries(Object.entries(geometry.attributes).map(([name, attribute]) => [name, typeOf(attribute)]));
 
-/** Changes the document of a GLB. */
-function changed(glb, change) {
-  const { json, chunks } = readGlb(glb);
-  change(json);
-  return writeGlb(json, chunks);
-}
-
 /** Checks that the meshes of two models are the same to what integers lose, and returns the types of each with integers. */
 function compareModels(integers, floats) {
   for (const { scene } of [integers, floats]) scene.updateMatrixWorld(true);
@@ -200,15 +194,6 @@ test('three.js keeps positions float where a lattice would move something else',
     node(json).children = [json.nodes.length - 1];
   };
   assert.equal(await positionOf(several, convert(readSample('two_materials'))), 'Uint16Array', 'a group of primitives, with a child');
-});
-
-/** Morph targets would keep positions float. */
-const skinnedAlone = () => changed(convert(readSample('skinned')), (json) => {
-  const [{ primitives: [primitive] }] = json.meshes;
-  delete primitive.targets;
-  delete primitive.extensions.KHR_mesh_collapse_compression.targets;
-  delete json.meshes[0].weights;
-  delete json.animations;
 });
 
 test('three.js puts the lattice of a skinned mesh before its joints', async () => {
