@@ -5,6 +5,7 @@ import { useInlineCore } from './source.mjs';
 import { unpackText } from './text.mjs';
 import { CORE } from './wasm/core_text.mjs';
 
-useInlineCore(() => unpackText(CORE));
+// What the page requests in the same task leaves first.
+useInlineCore(async () => unpackText(await CORE));
 
 export * from './index.mjs';

@@ -5,12 +5,12 @@ import { MccError } from './error.mjs';
 import { fileOf } from './node.mjs';
 
 /**
- * Returns `module`, or compiles `bytes`, if they are given; otherwise compiles the module at `url`.
+ * Returns `module`, or compiles `bytes`, or those of a promise, if they are given; otherwise compiles the module at `url`.
  */
 export async function compileModule({ module, bytes }, url) {
   if (module !== undefined) return module;
   try {
-    return await (bytes !== undefined ? WebAssembly.compile(bytes) : compileFrom(new URL(url, globalThis.document?.baseURI ?? import.meta.url)));
+    return await (bytes ? WebAssembly.compile(await bytes) : compileFrom(new URL(url, globalThis.document?.baseURI ?? import.meta.url)));
   } catch (error) {
     throw new MccError(`cannot load ${bytes ? 'the module' : url}: ${error.message}`, 'Load');
   }

@@ -47,7 +47,7 @@ export class Source {
   }
 }
 
-/** Returns the bytes of the core with SIMD, if a script has them. */
+/** Returns a promise of the bytes of the core with SIMD, if a script has them. */
 let inlineCore;
 
 /** Makes sources take the core from a function, where no other place is given. */
