@@ -2,9 +2,7 @@
 import { existsSync, readFileSync } from 'node:fs';
 import { chromium } from 'playwright-core';
 
-/** The first is Chromium without what windows need, which takes a fifth less of the processor. */
-const BROWSERS = ['/usr/bin/chromium-headless-shell', '/usr/bin/chromium'];
-const CHROMIUM = process.env.MCC_CHROMIUM ?? BROWSERS.find(existsSync) ?? BROWSERS[0];
+const CHROMIUM = process.env.MCC_CHROMIUM ?? '/usr/bin/chromium';
 
 /** Debian's Chromium without a window; WebGL is drawn by the CPU. */
 export const LAUNCH_OPTIONS = {
@@ -19,7 +17,7 @@ const PATIENCE_MS = 180_000;
 /** A browser for this process, or the one of shared_browser.mjs, of which close() ends only what this process has opened. */
 export function launchBrowser() {
   if (process.env.MCC_BROWSER) return chromium.connect(JSON.parse(readFileSync(process.env.MCC_BROWSER)).endpoint);
-  if (!existsSync(CHROMIUM)) throw new Error(`${CHROMIUM} is missing; install chromium-headless-shell or name a browser in MCC_CHROMIUM`);
+  if (!existsSync(CHROMIUM)) throw new Error(`${CHROMIUM} is missing; install chromium or name it in MCC_CHROMIUM`);
   return chromium.launch(LAUNCH_OPTIONS);
 }
 

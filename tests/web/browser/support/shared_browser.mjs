@@ -28,7 +28,7 @@ async function begin() {
   rmSync(file, { force: true }); // of a run that was killed
   spawn(process.execPath, [fileURLToPath(import.meta.url), 'serve', file], { detached: true, stdio: 'ignore' }).unref();
   for (let waitedMs = 0; !existsSync(file); waitedMs += 50) {
-    if (waitedMs > 50_000) throw new Error('the browser did not start; install chromium-headless-shell or name a browser in MCC_CHROMIUM');
+    if (waitedMs > 50_000) throw new Error('the browser did not start; install chromium or name it in MCC_CHROMIUM');
     await setTimeout(50);
   }
 }
