@@ -9,12 +9,6 @@ import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
 import { LAUNCH_OPTIONS } from './browser.mjs';
 
-/**
- * WebAssembly is compiled a second time, with optimisation, only where it runs for long: of codecs that run once per page that is a
- * quarter of the time of all tests. Those of Node run optimised code, and what measures a browser starts it without this.
- */
-const TEST_OPTIONS = { ...LAUNCH_OPTIONS, args: [...LAUNCH_OPTIONS.args, '--js-flags=--wasm-tiering-budget=200000000'] };
-
 /** A browser that nobody has ended goes by itself, since those who use it may have been killed. */
 const LIFE_MS = 30 * 60_000;
 
@@ -35,7 +29,7 @@ async function begin() {
 
 /** Until the file is removed. */
 async function serve() {
-  const server = await chromium.launchServer(TEST_OPTIONS);
+  const server = await chromium.launchServer(LAUNCH_OPTIONS);
   writeFileSync(`${file}.new`, JSON.stringify({ endpoint: server.wsEndpoint() }));
   renameSync(`${file}.new`, file);
   const beginMs = Date.now();
