@@ -5,6 +5,7 @@
 import { asTrap } from './arguments.mjs';
 import { Budget, forAll, sum } from './budget.mjs';
 import { decodePayload } from './decode.mjs';
+import { EXTENSION_NAME } from './document.mjs';
 import { fail, placed } from './error.mjs';
 import { decodePacked, readPacked, unpackGlb } from './unpack.mjs';
 
@@ -55,6 +56,19 @@ export async function unpackTile(bytes, options) {
     return tile.rebuild();
   } catch (error) {
     throw asTrap(error);
+  }
+}
+
+/** Whether the name of the extension is anywhere in a file: of a damaged one, it is not known where its models are. */
+export const namesExtension = (bytes) => new TextDecoder('latin1').decode(bytes).includes(EXTENSION_NAME);
+
+/** unpackTile() of what may be any file: engines read containers of older drafts, too, and it is not for us to complain about them. */
+export async function unpackIfOurs(bytes, options) {
+  try {
+    return await unpackTile(bytes, options);
+  } catch (error) {
+    if (namesExtension(bytes)) throw error;
+    return bytes;
   }
 }
 

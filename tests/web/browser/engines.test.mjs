@@ -17,7 +17,7 @@ const ENGINES = [
   { page: 'babylon', models: ALL, hasWorkers: true, without: /Required extension .* is not available/ },
   { page: 'playcanvas', models: WITH_SKINS_AND_TARGETS, hasWorkers: false, without: /only 0.00 %/ },
   { page: 'model_viewer', models: ['textured', 'materials'], hasWorkers: false, without: /only 0.00 %/ },
-  { page: 'cesium', query: 'eval', models: ['textured', 'materials'], hasWorkers: false, without: /Unsupported glTF Extension/ },
+  { page: 'cesium', query: 'eval', models: ['textured', 'materials'], hasWorkers: true, without: /Unsupported glTF Extension/ },
 ];
 const SCREENSHOT = 'materials';
 

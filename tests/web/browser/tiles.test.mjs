@@ -1,7 +1,7 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// A city that `gltf-mcc tiles` has compressed looks in CesiumJS as it did before, by the README's service worker, and what one picks in
-// it is the same.
+// A city that `gltf-mcc tiles` has compressed looks in CesiumJS as it did before, by the README's service worker and by gltf-mcc/cesium, and
+// what one picks in it is the same.
 // MCC_SCREENSHOTS=FOLDER saves the pictures.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -9,8 +9,10 @@ import { mkdtemp, readdir, readFile, rm, stat, writeFile } from 'node:fs/promise
 import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
+import { payloadsOf } from '../../../lib/web/document.mjs';
+import { readGlb } from '../../../lib/web/unpack.mjs';
 import { SAMPLES } from '../support/paths.mjs';
-import { PROGRAM } from '../support/program.mjs';
+import { convert, PROGRAM, readSample } from '../support/program.mjs';
 import { isDecoding, launchBrowser, openPage } from './support/browser.mjs';
 import { coverageOf, differenceOf, readPicture, writePicture } from './support/pixels.mjs';
 import { startServer } from './support/server.mjs';
@@ -35,6 +37,9 @@ const MIN_COVERAGE = 0.6;
 /** Only pixels at silhouettes, which one pixel's movement can give to a neighbour, may pick something else. At most 2 % were seen to. */
 const MAX_OTHER_PICKS = 0.06;
 const MIN_PICKED_IDS = { glb: 12, b3dm: 6 };
+
+/** In a payload. */
+const CHECKSUM_AT = 2;
 
 const site = {};
 
@@ -66,9 +71,12 @@ async function serveFolder(name, folder) {
   return bytes;
 }
 
-/** Opens the page, whose requests go through the worker. */
-async function openCity(name) {
-  const { page } = await openPage(site.browser, `${site.server.origin}/plain/tiles.html?eval&worker`, isDecoding);
+const isRegistered = () => globalThis.draw !== undefined && globalThis.isRegistered;
+
+/** Opens the page, whose requests go through the service worker or, with `isInPage`, are decoded by gltf-mcc/cesium. */
+async function openCity(name, isInPage = false) {
+  const address = `${site.server.origin}/plain/tiles.html?eval&${isInPage ? 'cesium' : 'worker'}`;
+  const { page } = await openPage(site.browser, address, isInPage ? isRegistered : isDecoding);
   await page.setViewportSize({ width: 600, height: 400 });
   await page.evaluate((url) => globalThis.load(url), `/files/${name}/tileset.json`);
   return page;
@@ -116,6 +124,49 @@ test('a compressed city looks the same in CesiumJS, and the same is picked in it
   await t.test('all levels and kinds of tiles were seen', () => checkTiles(views.source));
   await t.test('ids of property tables and of batch tables were picked', () => checkIds(views.compressed));
 });
+
+test('gltf-mcc/cesium shows the same as the service worker, and says why a tile fails', { timeout: 300_000 }, async () => {
+  const lookFrom = async (page) => page.evaluate((at) => globalThis.look(at), CAMERAS.houses);
+  const [byWorker, inPage] = [await openCity('compressed'), await openCity('compressed', true)];
+  const [expected, seen] = [await lookFrom(byWorker), await lookFrom(inPage)];
+  assert.deepEqual([seen.failures, seen.tiles], [[], expected.tiles]);
+  assert.ok(differenceOf(readPicture(expected.picture), readPicture(seen.picture)) < 0.001);
+  await byWorker.close();
+
+  const { files } = site.server;
+  const kept = new Map([...files].filter(([name]) => /^compressed.*\.(glb|b3dm|i3dm|cmpt)$/.test(name)));
+  for (const [name, { body, headers }] of kept) files.set(name, { body: damaged(body), headers });
+  await inPage.evaluate((url) => globalThis.load(url), '/files/compressed/tileset.json?again');
+  const { failures } = await lookFrom(inPage);
+  for (const [name, file] of kept) files.set(name, file);
+  assert.ok(failures.length > 0);
+  for (const failure of failures) assert.match(failure, /the payload is damaged/);
+  await inPage.close();
+});
+
+test('gltf-mcc/cesium loads a .gltf with its buffers', { timeout: 300_000 }, async () => {
+  const { json, chunks: [{ data }] } = readGlb(convert(readSample('textured')));
+  json.buffers[0].uri = 'model.bin';
+  const root = { boundingVolume: { sphere: [0, 0, 0, 100] }, geometricError: 0, refine: 'ADD', content: { uri: 'model.gltf' } };
+  const tileset = { asset: { version: '1.1' }, geometricError: 100, root };
+  const files = { 'tileset.json': JSON.stringify(tileset), 'model.gltf': JSON.stringify(json), 'model.bin': data };
+  for (const [name, body] of Object.entries(files)) site.server.files.set(`document/${name}`, { body: Buffer.from(body) });
+  const page = await openCity('document', true);
+  const { failures, tiles } = await page.evaluate((at) => globalThis.look(at), CAMERAS.whole);
+  assert.deepEqual([failures, tiles], [[], ['model.gltf']]);
+  await page.close();
+});
+
+/** A tile with a wrong checksum in each payload of the models inside. */
+function damaged(tile) {
+  const copy = Buffer.from(tile);
+  for (let at = -1; (at = copy.indexOf('glTF', at + 1)) >= 0;) {
+    if (copy.readUint32LE(at + 4) !== 2) continue; // these four letters of something else
+    const { json, chunks } = readGlb(copy.subarray(at, at + copy.readUint32LE(at + 8)));
+    for (const { bufferView } of payloadsOf(json)) chunks[0].data[(json.bufferViews[bufferView].byteOffset ?? 0) + CHECKSUM_AT] ^= 1;
+  }
+  return copy;
+}
 
 function comparePictures(source, compressed) {
   assert.deepEqual(compressed.tiles.map(stemOf), source.tiles.map(stemOf));

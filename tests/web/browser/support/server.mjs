@@ -9,7 +9,8 @@
 //   /snippets/NAME.mjs      the code under "### NAME" in the README of lib/web
 //   /lib/…, /engines/…      lib/web and node_modules
 //   /bundle/…               what a bundler has made
-//   /plain/…                pages that know nothing of the library; ?worker adds the README's line that starts the service worker
+//   /plain/…                pages that know nothing of the library; ?worker adds the README's line that starts the service worker, and ?cesium
+//                           makes CesiumJS decode
 //   /sw.js, /gltf-mcc/…     the README's service worker, and lib/web where it expects it
 //   /files/…                what a test has put into `files`: { body, headers, status, rest }; ranges are honoured; `rest` is a
 //                           promise of bytes that are sent when they are there
@@ -38,6 +39,7 @@ const LIBRARY_IMPORTS = {
   'gltf-mcc': '/lib/index.mjs',
   'gltf-mcc/three': '/lib/three.mjs',
   'gltf-mcc/babylon': '/lib/babylon.mjs',
+  'gltf-mcc/cesium': '/lib/cesium.mjs',
 };
 const NO_LIBRARY = Object.fromEntries(Object.keys(LIBRARY_IMPORTS).map((name) => [name, '/pages/without.mjs']));
 
@@ -127,7 +129,8 @@ async function answer(url, models, bundle) {
 }
 
 async function plainPage({ body, headers }, url) {
-  const line = url.searchParams.has('worker') ? await snippetOf('The page', 'html') : '';
+  const worker = url.searchParams.has('worker') ? await snippetOf('The page', 'html') : '';
+  const line = url.searchParams.has('cesium') ? '<script type="module" src="/pages/register_cesium.mjs"></script>' : worker;
   const text = body.toString().replace('<script', () => `${line}<script`);
   const scripts = `${POLICY['script-src']}${url.searchParams.has('eval') ? " 'unsafe-eval'" : ''}`;
   return withPolicy({ body: text, headers }, { ...POLICY, ...POLICY_OF_ENGINES, 'script-src': scripts });

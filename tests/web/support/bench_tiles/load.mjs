@@ -6,14 +6,23 @@ import path from 'node:path';
 import { launchBrowser } from '../../browser/support/browser.mjs';
 import { startServer } from '../../browser/support/server.mjs';
 import { startLink } from './link.mjs';
-import { OURS } from './make.mjs';
+import { BY_WORKER, OURS } from './make.mjs';
 import { median } from './runs.mjs';
 import { filesIn } from './tileset.mjs';
 
-/** The page loads itself again as soon as the service worker has it, so that a worker alone is not enough. */
-const isControlled = () => globalThis.load !== undefined && navigator.serviceWorker.controller !== null
-  && performance.getEntriesByType('navigation')[0].type === 'reload';
-const isReady = () => globalThis.load !== undefined;
+/**
+ * What is added to the address of the page by row, and when it is ready. With the service worker, it loads itself again as soon as the worker
+ * has it, so that a worker alone is not enough.
+ */
+const PAGES = {
+  [OURS]: { query: '&cesium', isReady: () => globalThis.load !== undefined && globalThis.isRegistered },
+  [BY_WORKER]: {
+    query: '&worker',
+    isReady: () => globalThis.load !== undefined && navigator.serviceWorker.controller !== null
+      && performance.getEntriesByType('navigation')[0].type === 'reload',
+  },
+};
+const PLAIN_PAGE = { query: '', isReady: () => globalThis.load !== undefined };
 
 /**
  * @param {Object<string, string>} folders the tilesets by row; beside each is FOLDER.br with what brotli made of its contents
@@ -37,7 +46,7 @@ export async function measureLoads(folders, tileset, links, { runs, distances },
         for (let i = 0; i < runs; ++i) {
           for (const row of Object.keys(folders)) {
             const url = `${link?.origin ?? server.origin}/files/${places[row]}/${tileset}`;
-            found[row].push(await loadOnce(browser, url, row === OURS, distance));
+            found[row].push(await loadOnce(browser, url, PAGES[row] ?? PLAIN_PAGE, distance));
           }
         }
         results[name][camera] = Object.fromEntries(Object.entries(found).map(([row, list]) => [row, {
@@ -65,14 +74,14 @@ function serveFolder(files, place, folder) {
   }
 }
 
-async function loadOnce(browser, tileset, isOurs, distance) {
+async function loadOnce(browser, tileset, { query, isReady }, distance) {
   const context = await browser.newContext({ viewport: { width: 480, height: 360 } });
   try {
     const page = await context.newPage();
     const messages = [];
     page.on('console', (message) => messages.push(message.text()));
-    await page.goto(`${new URL(tileset).origin}/plain/cesium_load.html?eval${isOurs ? '&worker' : ''}`);
-    await page.waitForFunction(isOurs ? isControlled : isReady, undefined, { timeout: 60_000 }).catch((error) => {
+    await page.goto(`${new URL(tileset).origin}/plain/cesium_load.html?eval${query}`);
+    await page.waitForFunction(isReady, undefined, { timeout: 60_000 }).catch((error) => {
       throw new Error(`the page did not get ready: ${messages.join('\n')}`, { cause: error });
     });
     return await page.evaluate(([url, far]) => globalThis.load(url, far), [tileset, distance]);

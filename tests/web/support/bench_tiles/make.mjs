@@ -18,6 +18,8 @@ export const RECORD = '.gltf-mcc-tiles.jsonl';
 /** Rows of codecs: the same bits for all tiles, and those that each tile needs, with ids as integers. */
 export const rowName = (codec, isEach) => `${codec}, ${isEach ? 'best bits of each tile' : 'one number of bits'}`;
 export const OURS = 'gltf-mcc';
+/** The same tileset, loaded through the service worker instead of gltf-mcc/cesium. */
+export const BY_WORKER = 'gltf-mcc, service worker';
 export const SOURCE = 'uncompressed';
 
 /** Runs the program; returns its report. */
