@@ -12,7 +12,7 @@ export const LAUNCH_OPTIONS = {
 };
 
 /** How long a page may take on a busy machine. It ends what hangs, and judges no speed. */
-const PATIENCE_MS = 180_000;
+export const PATIENCE_MS = 180_000;
 
 /** A browser for this process, or the one of shared_browser.mjs, of which close() ends only what this process has opened. */
 export function launchBrowser() {
