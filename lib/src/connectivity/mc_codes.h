@@ -293,7 +293,8 @@ Status McMachine<Io>::run(const McWatch* watch) {
   // Handles refer to nodes by number, so with handles no node is reused and there is about one per
   // vertex. Without handles there are only as many as are open at the same time.
   const uint64_t expected = uint64_t{counts_.vertex_count} + counts_.vertex_count / 8;
-  if (!nodes_.reserve(counts_.has_handles ? expected : std::min<uint64_t>(expected, 1u << 10))) {
+  const uint64_t first = counts_.has_handles ? expected : std::min<uint64_t>(expected, 1u << 10);
+  if (!nodes_.reserve(static_cast<size_t>(first))) {  // where that is less, more are added later
     return fail(Error::kOutOfMemory, "no memory for the connectivity decoder");
   }
   if (isWatched() && !watch_->reserve(counts_.operation_count)) {

@@ -121,7 +121,8 @@ class CodedPiece {
 
   /// Fills `triangles`. Returns false when memory ran out.
   [[nodiscard]] bool listTriangles() {
-    const uint64_t count = header_.triangleCount();
+    // All of them were decoded, so their number fits in memory.
+    const auto count = static_cast<size_t>(header_.triangleCount());
     const bool many = header_.part_count > 1;
     if (!triangles.wedges.resize(3 * count) || !triangles.part.resize(many ? count : 0))
       return false;

@@ -55,7 +55,7 @@ class ValueMemory {
   /// answer for the value of wedge k. Returns k, or kNone.
   template <class Io, class IsValue>
   uint32_t ask(Io& io, MemoryModels& models, uint64_t key, uint32_t except, IsValue isValue) {
-    const MemoryEntry e = entries_[key >> (64 - bits_)];
+    const MemoryEntry e = entries_[placeOf(key)];
     if (e.check != static_cast<uint32_t>(key)) return kNone;
     for (const uint32_t k : e.wedge) {
       if (k == kNone || (except != kNone && isEqual(k, except)) || wasAsked(k)) continue;
@@ -69,7 +69,7 @@ class ValueMemory {
   }
 
   void learn(uint64_t key, uint32_t wedge) {
-    MemoryEntry& e = entries_[key >> (64 - bits_)];
+    MemoryEntry& e = entries_[placeOf(key)];
     const uint32_t check = static_cast<uint32_t>(key);
     const bool is_known = e.check == check;
     if (!is_known || e.wedge[0] == kNone || !isEqual(wedge, e.wedge[0])) {
@@ -133,6 +133,7 @@ class ValueMemory {
     for (uint32_t c = 0; c < kComponents; ++c) h = addToHash(h, integers[c]);
     return h;
   }
+  size_t placeOf(uint64_t key) const { return static_cast<size_t>(key >> (64 - bits_)); }
   static uint64_t keyOf(uint64_t hash) {
     const uint64_t h = hash * 0xbf58476d1ce4e5b9u;
     return h ^ (h >> 32);
