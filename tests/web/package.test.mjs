@@ -155,5 +155,5 @@ describe('package', () => {
 
 /** Of one decoder and the script, after brotli: what they take today. The aim is 25,000 for the core. */
 const LARGEST_BYTES = {
-  mcc_decoder_core_simd: 42_800, mcc_decoder_core: 44_000, mcc_decoder_simd: 62_000, mcc_decoder: 66_900,
+  mcc_decoder_core_simd: 42_800, mcc_decoder_core: 44_000, mcc_decoder_simd: 65_600, mcc_decoder: 66_900,
 };
