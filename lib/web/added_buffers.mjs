@@ -12,6 +12,12 @@ const BUFFER_PARAMETER = 'gltf-mcc-buffer';
 const MOST_BUFFERS = 64;
 const MOST_BUFFER_BYTES = 2 ** 28;
 
+/** What JSON begins with, after spaces, is within so many bytes. */
+const START_BYTES = 20;
+
+/** Whether a file that begins with these bytes may be a .gltf document. */
+export const isJson = (bytes) => new TextDecoder().decode(bytes.subarray(0, START_BYTES)).trimStart()[0] === '{';
+
 /** @param {URL} url */
 export const isAddedBuffer = (url) => url.searchParams.has(BUFFER_PARAMETER);
 

@@ -1,16 +1,14 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// CesiumJS has no plugins for glTF, but fetches all models and tiles through one method, and everything that it does not see is decoded
-// behind it: in workers of the page, whose results need not cross to another process as those of a service worker must.
-import { AddedBuffers, isAddedBuffer } from './added_buffers.mjs';
+// CesiumJS has no plugins for glTF, but fetches all models and tiles through one method. They are decoded there, before CesiumJS sees them. The
+// page's own workers do it, because what a service worker decodes has to be copied to the page's process.
+import { AddedBuffers, isAddedBuffer, isJson } from './added_buffers.mjs';
+import { usesExtension } from './document.mjs';
 import { requireArgument } from './error.mjs';
 import { decodeAnywhere, preload } from './threads.mjs';
 import { namesExtension, unpackIfOurs } from './unpack_tile.mjs';
 
 export { preload };
-
-const BRACE = 0x7b;
-const isSpace = (byte) => byte === 0x20 || (byte >= 0x09 && byte <= 0x0d);
 
 /** Classes that are registered. */
 const known = new WeakSet();
@@ -27,7 +25,7 @@ export function registerMeshCollapse(Resource, options) {
   if (known.has(Resource)) return;
   known.add(Resource);
   if (options?.decode === undefined) preload();
-  const files = new Files(Resource.prototype.fetchArrayBuffer, { decode: decodeAnywhere, ...options });
+  const files = new Files(Resource.prototype.fetchArrayBuffer, { ...options, decode: options?.decode ?? decodeAnywhere });
   Resource.prototype.fetchArrayBuffer = function fetchArrayBuffer() {
     return files.fetch(this);
   };
@@ -46,7 +44,7 @@ class Files {
 
   /** Returns a promise of an ArrayBuffer, or undefined, as CesiumJS does, if too many requests are active. */
   fetch(resource) {
-    const url = urlOf(resource);
+    const url = addressOf(resource);
     if (url !== undefined && isAddedBuffer(url)) return this.#added(resource, url);
     return this.#fetchArrayBuffer.call(resource)?.then((buffer) => this.#unpack(resource, url, buffer));
   }
@@ -57,16 +55,15 @@ class Files {
 
   async #unpack(resource, url, buffer) {
     const bytes = new Uint8Array(buffer);
-    if (isJson(bytes)) return namesExtension(bytes) && url !== undefined ? this.#unpackJson(resource, url, buffer) : buffer;
+    const document = url === undefined ? undefined : documentOf(bytes);
+    if (document !== undefined) return this.#unpackDocument(resource, url, document) ?? buffer;
     const plain = await unpackIfOurs(bytes, this.#options);
     return plain === bytes ? buffer : bufferOf(plain);
   }
 
-  /** Of any JSON: tilesets, too, come this way. */
-  #unpackJson(resource, url, buffer) {
-    const source = JSON.parse(new TextDecoder().decode(buffer));
-    const json = this.#buffers.begin(url.href, source, this.#fetcher(resource));
-    return json === undefined ? buffer : new TextEncoder().encode(JSON.stringify(json)).buffer;
+  #unpackDocument(resource, { href }, document) {
+    const json = this.#buffers.begin(href, document, this.#fetcher(resource));
+    return json && bufferOf(new TextEncoder().encode(JSON.stringify(json)));
   }
 
   /** With the headers, the proxy and the parameters of a resource. */
@@ -76,7 +73,7 @@ class Files {
 }
 
 /** Returns undefined if it is no URL, which is not for us to complain about. */
-function urlOf({ url }) {
+function addressOf({ url }) {
   try {
     return new URL(url, globalThis.document?.baseURI);
   } catch {
@@ -84,7 +81,16 @@ function urlOf({ url }) {
   }
 }
 
-const isJson = (bytes) => bytes.find((byte) => !isSpace(byte)) === BRACE;
+/** Returns the .gltf document that a file is, or undefined if it does not use the extension. Tilesets, too, are JSON, and may be large. */
+function documentOf(bytes) {
+  if (!isJson(bytes) || !namesExtension(bytes)) return undefined;
+  try {
+    const json = JSON.parse(new TextDecoder().decode(bytes));
+    return usesExtension(json) ? json : undefined;
+  } catch {
+    return undefined; // not ours to complain about
+  }
+}
 
 const bufferOf = ({ buffer, byteOffset, byteLength }) => (
   byteLength === buffer.byteLength ? buffer : buffer.slice(byteOffset, byteOffset + byteLength));

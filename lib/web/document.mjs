@@ -102,6 +102,9 @@ export function originOf({ piece, attribute, part }, { componentType, type }) {
 /** The entries of a list of a document that is not checked yet. */
 export const listOf = (value) => (Array.isArray(value) ? value : []);
 
+/** Whether a document says that it uses the extension. @param {any} json which may be anything */
+export const usesExtension = (json) => listOf(json?.extensionsUsed).includes(EXTENSION_NAME);
+
 /** @returns {object[]}  { extension, primitive, path } of all primitives with the extension */
 export function extensionUses(json) {
   return listOf(json?.meshes).flatMap((mesh, m) => listOf(mesh?.primitives).flatMap((primitive, p) => {

@@ -1,9 +1,9 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
 // Decodes models on their way from the network to a page, so that engines without a plugin show them.
-import { AddedBuffers, isAddedBuffer, nameOf } from './added_buffers.mjs';
+import { AddedBuffers, isAddedBuffer, isJson, nameOf } from './added_buffers.mjs';
 import { prepareHere } from './decode.mjs';
-import { EXTENSION_NAME, listOf } from './document.mjs';
+import { usesExtension } from './document.mjs';
 import { readGlb, unpackGlb } from './unpack.mjs';
 import { isContainer, unpackIfOurs } from './unpack_tile.mjs';
 
@@ -51,7 +51,7 @@ class Models {
     try {
       const start = await startOf(response.clone());
       if (start.isContainer) return await this.#tile(response);
-      if (!listOf(start.json?.extensionsUsed).includes(EXTENSION_NAME)) return response;
+      if (!usesExtension(start.json)) return response;
       if (!start.isGlb) {
         const json = this.#buffers.begin(request.url, start.json, fetcher(request));
         return json === undefined ? response : answer(response, JSON.stringify(json));
@@ -107,7 +107,7 @@ async function startOf(response) {
     const head = await readTo(HEADER_BYTES);
     if (isContainer(head)) return { isContainer: true };
     const isGlb = textOf(head.subarray(0, 4)) === GLB_MAGIC;
-    if (!isGlb && textOf(head).trimStart()[0] !== '{') return {};
+    if (!isGlb && !isJson(head)) return {};
     // The JSON of version 3 may be anywhere.
     if (isGlb && new DataView(head.buffer).getUint32(4, true) === 3) return { isGlb, json: readGlb(await readTo(Infinity)).json };
     const [from, to] = isGlb ? [HEADER_BYTES, HEADER_BYTES + new DataView(head.buffer).getUint32(12, true)] : [0, Infinity];

@@ -62,6 +62,12 @@ test('a .gltf comes with one more buffer, which needs no request of its own; pay
   assert.deepEqual(requests.slice(2), ['a/model.gltf?key=1', 'a/model.bin']);
 });
 
+test('a .gltf may begin with a byte order mark and spaces', async () => {
+  const { text, data } = gltfOf();
+  const { fetch } = start({ 'model.gltf': `\ufeff\n ${text}`, 'model.bin': data });
+  assert.equal(JSON.parse(new TextDecoder().decode(await fetch('model.gltf'))).extensionsUsed, undefined);
+});
+
 test('what is damaged is refused with the place', async () => {
   const damaged = MODEL.slice();
   damaged[damaged.length - 6] ^= 1;
@@ -75,7 +81,8 @@ test('what is damaged is refused with the place', async () => {
 test('what is not ours passes as it is, whatever it is', async () => {
   const others = {
     'tileset.json': '{"root":{}}', 'a.gltf': ' {"extensionsUsed":"KHR_mesh_collapse_compression"}', 'b.gltf': '{', 'c.txt': '', 'd.glb': 'glTF',
-    'e.b3dm': 'b3dm\x09', 'f.glb': await unpackGlb(MODEL), 'g.bin': new Uint8Array(5),
+    'e.b3dm': 'b3dm\x09', 'tileset.gltf': '{"extensions":{"3DTILES_content_gltf":{"extensionsUsed":["KHR_mesh_collapse_compression"]}},"meshes":1}',
+    'cut.gltf': '{"extensionsUsed":["KHR_mesh_collapse_compression"]', 'f.glb': await unpackGlb(MODEL), 'g.bin': new Uint8Array(5),
   };
   const { fetch } = start(others);
   for (const [name, body] of Object.entries(others)) {

@@ -130,8 +130,8 @@ describe('package', () => {
       });
       return brotli(Buffer.from(code));
     };
-    const plugins = { three: 'MeshCollapsePlugin', babylon: 'registerMeshCollapse', cesium: 'registerMeshCollapse', 'gltf-transform': 'KHRMeshCollapseCompression', 'loaders-gl': 'meshCollapse',
-      'service-worker': 'decodeFetches' };
+    const plugins = { three: 'MeshCollapsePlugin', babylon: 'registerMeshCollapse', cesium: 'registerMeshCollapse',
+      'gltf-transform': 'KHRMeshCollapseCompression', 'loaders-gl': 'meshCollapse', 'service-worker': 'decodeFetches' };
     for (const [name, exported] of Object.entries(plugins)) {
       console.log(`gltf-mcc/${name}, minified, after brotli: ${await scriptBytes(exported, `gltf-mcc/${name}`)} bytes`);
     }

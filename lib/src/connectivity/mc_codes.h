@@ -294,7 +294,8 @@ Status McMachine<Io>::run(const McWatch* watch) {
   // vertex. Without handles there are only as many as are open at the same time.
   const uint64_t expected = uint64_t{counts_.vertex_count} + counts_.vertex_count / 8;
   const uint64_t first = counts_.has_handles ? expected : std::min<uint64_t>(expected, 1u << 10);
-  if (!nodes_.reserve(static_cast<size_t>(first))) {  // where that is less, more are added later
+  // A size of 32 bits may cut it off. Then less is reserved, and push_back() asks for the rest.
+  if (!nodes_.reserve(static_cast<size_t>(first))) {
     return fail(Error::kOutOfMemory, "no memory for the connectivity decoder");
   }
   if (isWatched() && !watch_->reserve(counts_.operation_count)) {

@@ -766,7 +766,7 @@ test('what the page has compressed to blocks appears block by block', async () =
     new MutationObserver(() => globalThis.seen.push(canvas.dataset.blocks)).observe(canvas, { attributeFilter: ['data-blocks'] });
   });
   await drop(page, 'sheet.glb', largeSheet(520));
-  await page.waitForFunction(() => document.getElementById('compressed-size').textContent !== '', undefined, { timeout: 120_000 });
+  await page.waitForFunction(() => document.getElementById('compressed-size').textContent !== '', undefined, { timeout: PATIENCE_MS });
   await page.waitForFunction(() => document.getElementById('waiting').textContent === '', undefined, { timeout: PATIENCE_MS });
   const seen = (await page.evaluate(() => globalThis.seen)).filter(Boolean);
   assert.ok(seen.length > 0 && seen.every((text) => / of [2-9]$/.test(text)), seen.join());
