@@ -265,24 +265,16 @@ class Maker {
   }
 
   void addBounds(const Column& column, Json& accessor) {
-    Json low = Json::array();
-    Json high = Json::array();
-    for (uint32_t c = 0; c < column.components(); ++c) {
-      double min = std::numeric_limits<double>::infinity();
-      double max = -min;
-      for (uint32_t i = 0; i < column.count; ++i) {
-        const double value = column.get(size_t{i} * column.components() + c);
-        if (std::isnan(value)) return;
-        min = std::min(min, value);
-        max = std::max(max, value);
-      }
-      if (!std::isfinite(min) || !std::isfinite(max)) return;
-      const bool is_float = column.component_type == kFloat;
-      low.push_back(is_float ? Json(min) : Json(static_cast<int64_t>(min)));
-      high.push_back(is_float ? Json(max) : Json(static_cast<int64_t>(max)));
+    std::vector<double> values;
+    for (size_t i = 0; i < size_t{column.count} * column.components(); ++i) {
+      values.push_back(column.get(i));
+      if (!std::isfinite(values.back())) return;
     }
-    accessor["min"] = low;
-    accessor["max"] = high;
+    if (values.empty()) return;
+    if (column.component_type == kFloat)
+      return Builder::setBounds<double>(accessor, values, column.components());
+    const std::vector<int64_t> whole(values.begin(), values.end());
+    Builder::setBounds<int64_t>(accessor, whole, column.components());
   }
 
   uint32_t addAccessor(const Column& column, Json accessor, bool with_bounds) {

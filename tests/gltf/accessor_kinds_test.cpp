@@ -27,12 +27,6 @@ struct Kind {
   uint32_t components = 3;
 };
 
-uint32_t bytesOfType(int type) {
-  return type == kByte || type == kUnsignedByte     ? 1
-         : type == kShort || type == kUnsignedShort ? 2
-                                                    : 4;
-}
-
 double lastOf(int type) {
   switch (type) {
     case kByte: return 127;
@@ -46,7 +40,7 @@ double lastOf(int type) {
 /// Returns values from 0 to 1 (normals of unit length, weights with the sum 1) as the kind stores
 /// them, with elements padded to four bytes.
 std::vector<uint8_t> store(const std::vector<float>& values, const Kind& kind) {
-  const uint32_t bytes = bytesOfType(kind.type);
+  const uint32_t bytes = widthOf(kind.type);
   std::vector<uint8_t> stored;
   for (size_t i = 0; i < values.size(); ++i) {
     if (kind.type == kFloat) {
@@ -55,7 +49,7 @@ std::vector<uint8_t> store(const std::vector<float>& values, const Kind& kind) {
     } else {
       const double scale = kind.normalized ? lastOf(kind.type) : std::min(lastOf(kind.type), 100.0);
       const auto number = static_cast<int32_t>(std::lround(double{values[i]} * scale));
-      for (uint32_t b = 0; b < bytes; ++b) stored.push_back(static_cast<uint8_t>(number >> 8 * b));
+      append(stored, static_cast<uint32_t>(number), bytes);
     }
     if (i % kind.components == kind.components - 1)
       stored.resize((stored.size() + 3) & ~size_t{3}, 0);
@@ -65,25 +59,9 @@ std::vector<uint8_t> store(const std::vector<float>& values, const Kind& kind) {
 
 /// Smallest and largest stored component.
 void addBounds(const std::vector<uint8_t>& file, uint32_t index, Json& accessor) {
-  Document document;
-  AccessorData data;
-  ASSERT_TRUE(loadDocument(file, nullptr, document).ok());
-  ASSERT_TRUE(readAccessor(document, index, data).ok());
-  const Accessor& read = document.accessors[index];
-  Json low = Json::array(), high = Json::array();
-  for (uint32_t c = 0; c < read.componentCount(); ++c) {
-    double min = 1e30, max = -1e30;
-    for (uint64_t i = 0; i < data.count; ++i) {
-      const double value = componentValue(
-          data.element(i).data() + c * componentBytes(read.component_type), read.component_type);
-      min = std::min(min, value);
-      max = std::max(max, value);
-    }
-    low.push_back(min);
-    high.push_back(max);
-  }
-  accessor["min"] = low;
-  accessor["max"] = high;
+  PlainDocument document;
+  ASSERT_EQ(document.load({{"file", file}}, "file"), "");
+  Builder::setBounds<double>(accessor, document.numbers(index), 3);
 }
 
 class Maker {
@@ -92,13 +70,13 @@ class Maker {
   const Sheet sheet{12};
 
   uint32_t add(const Kind& kind, const std::vector<float>& values, Layout layout) {
-    static constexpr const char* kTypes[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
-    Json accessor = {
-        {"componentType", kind.type}, {"count", sheet.count()}, {"type", kTypes[kind.components]}};
+    Json accessor = {{"componentType", kind.type},
+                     {"count", sheet.count()},
+                     {"type", vectorType(kind.components)}};
     if (kind.normalized) accessor["normalized"] = true;
     const std::vector<uint8_t> stored = store(values, kind);
     const auto element = static_cast<uint32_t>(stored.size() / sheet.count());
-    const bool is_padded = element != kind.components * bytesOfType(kind.type);
+    const bool is_padded = element != kind.components * widthOf(kind.type);
     switch (layout) {
       case Layout::kTight:
         accessor["bufferView"] = builder.addView(stored, is_padded ? element : 0);
@@ -164,7 +142,7 @@ class Maker {
   /// Every step-th element; values of sparse accessors are tight.
   Json sparse(const std::vector<uint8_t>& stored, uint32_t element, const Kind& kind,
               uint32_t step) {
-    const uint32_t tight = kind.components * bytesOfType(kind.type);
+    const uint32_t tight = kind.components * widthOf(kind.type);
     std::vector<uint8_t> values;
     std::vector<uint16_t> indices;
     for (uint32_t i = 0; i < sheet.count(); i += step) {

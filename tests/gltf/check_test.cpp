@@ -52,10 +52,9 @@ class Check : public testing::Test {
 
   /// Returns the verdict on a file.
   std::string verdict(const Json& json, const std::vector<uint8_t>& bin) {
-    std::vector<uint8_t> written;
-    EXPECT_TRUE(writeGlb(printJson(json), bin, {}, written).ok());
     CheckResult result;
-    return checkConversion(source_, compressed_, {}, written, nullptr, 1, result).message();
+    return checkConversion(source_, compressed_, {}, glbOf(json, bin), nullptr, 1, result)
+        .message();
   }
   void expectVerdict(const std::string& words, const Json& json) {
     const std::string message = verdict(json, bin_);
@@ -197,8 +196,7 @@ TEST_F(Check, NoticesLostJson) {
 }
 
 TEST_F(Check, NoticesAnotherPayloadInPlaceOfAnOldOne) {
-  std::vector<uint8_t> old_file;
-  ASSERT_TRUE(writeGlb(printJson(compressed_.json), bin_, {}, old_file).ok());
+  const std::vector<uint8_t> old_file = glbOf(compressed_.json, bin_);
   ASSERT_TRUE(loadDocument(old_file, nullptr, source_).ok());
   std::vector<EncodedPayload> payloads = std::move(compressed_.payloads);
   compressed_.payloads.clear();

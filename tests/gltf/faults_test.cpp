@@ -388,9 +388,7 @@ Builder withMissingBuffer(TwoMeshes& d) {
 std::vector<uint8_t> glbWith(const Builder& builder, const Json& buffers) {
   Json json = builder.json;
   json["buffers"] = buffers;
-  std::vector<uint8_t> file;
-  EXPECT_TRUE(writeGlb(printJson(json), builder.bin, {}, file).ok());
-  return file;
+  return glbOf(json, builder.bin);
 }
 
 TEST(MissingBuffers, StayAsTheyWere) {
@@ -448,8 +446,7 @@ TEST(MissingBuffers, ADocumentOfNothingElseIsCopied) {
   TwoMeshes d;
   Json json = d.builder.json;
   json["buffers"] = {{{"byteLength", d.builder.bin.size()}}};
-  std::vector<uint8_t> file;
-  ASSERT_TRUE(writeGlb(printJson(json), {}, {}, file).ok());
+  const std::vector<uint8_t> file = glbOf(json, {});
   const RoundTrip trip = roundTrip(file);
   ASSERT_EQ(trip.error, "");
   EXPECT_EQ(trip.converted, file);
@@ -474,8 +471,7 @@ TEST(MissingBuffers, APayloadInThemIsAnError) {
     return builder;
   }());
   ASSERT_EQ(trip.error, "");
-  std::vector<uint8_t> file;
-  ASSERT_TRUE(writeGlb(printJson(jsonOf(trip.converted)), {}, {}, file).ok());
+  const std::vector<uint8_t> file = glbOf(jsonOf(trip.converted), {});
   std::vector<uint8_t> decoded;
   DecodeReport report;
   EXPECT_TRUE(mentions(decodeGlb(file, decoded, report).message(),

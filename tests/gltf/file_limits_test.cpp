@@ -35,14 +35,6 @@ std::vector<uint8_t> compressedSheet() {
   return roundTrip(builder, evenIfLarger()).converted;
 }
 
-std::vector<uint8_t> withJson(std::span<const uint8_t> file, const Json& json) {
-  GlbFile glb;
-  std::vector<uint8_t> changed;
-  EXPECT_TRUE(readGlb(file, glb).ok());
-  EXPECT_TRUE(writeGlb(printJson(json), glb.bin, {}, changed).ok());
-  return changed;
-}
-
 /// Repeats the primitive n times with accessors of its own; every other one names the payload by
 /// another view of its bytes.
 std::vector<uint8_t> multiplied(std::span<const uint8_t> file, size_t n) {

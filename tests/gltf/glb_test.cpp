@@ -7,7 +7,6 @@
 #include <random>
 #include <set>
 
-#include "support/glb3.h"
 #include "support/gltf_builder.h"
 
 namespace mcc::gltf::test {

@@ -7,7 +7,6 @@
 
 #include "gltf/round_trip.h"
 #include "mcc/files.h"
-#include "support/glb3.h"
 
 namespace mcc::gltf::test {
 namespace {
@@ -254,16 +253,12 @@ TEST(Gltf21, BoundsOfSignedIntegersAreThoseOfTheirValues) {
   builder.addMesh({primitive});
   const RoundTrip trip = roundTrip(builder, lossless());
   ASSERT_EQ(trip.error, "");
-  GlbFile glb;
-  ASSERT_TRUE(readGlb(trip.converted, glb).ok());
   for (const auto& [bound, value] : {std::pair("min", -kFar), std::pair("max", kFar)}) {
     for (const int32_t off : {-1, 0, 1}) {
       Json json = jsonOf(trip.converted);
       json["accessors"][accessor][bound] = {value + off};
-      std::vector<uint8_t> changed;
-      ASSERT_TRUE(writeGlb(printJson(json), glb.bin, {}, changed).ok());
       ValidationReport validation;
-      ASSERT_TRUE(validateGlb(changed, {}, validation).ok());
+      ASSERT_TRUE(validateGlb(withJson(trip.converted, json), {}, validation).ok());
       EXPECT_EQ(validation.issues.size(), off == 0 ? 0u : 1u) << bound << " " << off;
     }
   }

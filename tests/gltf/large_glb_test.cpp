@@ -8,7 +8,6 @@
 
 #include "gltf/round_trip.h"
 #include "mcc/files.h"
-#include "support/glb3.h"
 #include "support/scratch_folder.h"
 
 namespace mcc::gltf::test {

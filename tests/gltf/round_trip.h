@@ -59,9 +59,7 @@ inline RoundTrip roundTrip(const Builder& builder, const ConvertOptions& options
 }
 
 inline std::vector<uint8_t> fileOf(const Builder& builder) {
-  std::vector<uint8_t> file;
-  const Result result = writeGlb(printJson(builder.json), builder.bin, {}, file);
-  return result.ok() ? file : std::vector<uint8_t>{};
+  return glbOf(builder.json, builder.bin);
 }
 
 inline ConvertOptions lossless() {

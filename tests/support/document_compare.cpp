@@ -60,10 +60,6 @@ void compareJson(const Json& a, const Json& b, const std::string& path, const Sk
 
 // ---- Values ------------------------------------------------------------------------------------
 
-double component(const Elements& elements, size_t i, size_t c) {
-  return componentAt(static_cast<int>(elements.component_type), elements.values[i].data(), c);
-}
-
 struct Box {
   double low[16];
   double high[16];
@@ -165,9 +161,8 @@ std::vector<uint32_t> cornersOf(const PlainDocument& document, const Json& primi
                                 size_t vertex_count) {
   std::vector<uint32_t> vertices;
   if (const Json& indices = memberOf(primitive, "indices"); !indices.is_null()) {
-    const Elements elements = document.elements(numberOf(indices));
-    for (size_t i = 0; i < elements.values.size(); ++i)
-      vertices.push_back(static_cast<uint32_t>(component(elements, i, 0)));
+    const std::vector<double> numbers = document.numbers(numberOf(indices));
+    vertices.assign(numbers.begin(), numbers.end());
   } else {
     vertices.resize(vertex_count);
     std::iota(vertices.begin(), vertices.end(), 0u);

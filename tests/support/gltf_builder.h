@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -102,6 +103,48 @@ std::vector<uint8_t> bytesOf(const std::vector<T>& values) {
   return bytes;
 }
 
+/// Appends a number as bytes, the lowest first.
+inline void append(std::vector<uint8_t>& to, uint64_t value, size_t byte_count = 4) {
+  for (size_t i = 0; i < byte_count; ++i) to.push_back(static_cast<uint8_t>(value >> (8 * i)));
+}
+
+/// A GLB of a document and of its BIN chunk.
+inline std::vector<uint8_t> glbOf(const Json& json, std::span<const uint8_t> bin) {
+  std::vector<uint8_t> file;
+  const Result result = writeGlb(printJson(json), bin, {}, file);
+  if (!result.ok()) throw std::runtime_error("GLB: " + result.message());
+  return file;
+}
+
+struct Chunk3 {
+  std::string type;  ///< four characters
+  std::vector<uint8_t> bytes;
+  uint32_t encoding = 0;
+};
+
+/// A GLB of version 3, byte by byte from the draft and without the library, so that tests of
+/// reading do not depend on writing. Padding follows each chunk, also the last one, and counts in
+/// the length of the file alone.
+inline std::vector<uint8_t> glb3Of(const std::vector<Chunk3>& chunks) {
+  std::vector<uint8_t> body;
+  for (const Chunk3& chunk : chunks) {
+    body.insert(body.end(), chunk.type.begin(), chunk.type.end());
+    append(body, chunk.encoding);
+    append(body, chunk.bytes.size(), 8);
+    body.insert(body.end(), chunk.bytes.begin(), chunk.bytes.end());
+    body.resize((body.size() + 7) / 8 * 8, 0);
+  }
+  std::vector<uint8_t> file = {'g', 'l', 'T', 'F', 3, 0, 0, 0};
+  append(file, 16 + body.size(), 8);
+  file.insert(file.end(), body.begin(), body.end());
+  return file;
+}
+
+inline Chunk3 jsonChunk(const std::string& text) { return {"JSON", {text.begin(), text.end()}}; }
+inline Chunk3 binChunk(std::vector<uint8_t> bytes) {
+  return {std::string("BIN\0", 4), std::move(bytes)};
+}
+
 class Builder {
  public:
   Json json = {{"asset", {{"version", "2.0"}}}};
@@ -178,13 +221,10 @@ class Builder {
     return mesh;
   }
 
-  /// Returns nothing when that is more than a GLB can hold.
   std::vector<uint8_t> toGlb() const {
     Json complete = json;
     if (!bin.empty()) complete["buffers"] = {{{"byteLength", bin.size()}}};
-    std::vector<uint8_t> file;
-    const Result result = writeGlb(printJson(complete), bin, {}, file);
-    return result.ok() ? file : std::vector<uint8_t>{};
+    return glbOf(complete, bin);
   }
 };
 
@@ -240,6 +280,14 @@ inline Json jsonOf(std::span<const uint8_t> file) {
   Json json;
   if (!readGlb(file, glb).ok() || !parseJson(glb.json, json).ok()) return nullptr;
   return json;
+}
+
+/// A GLB with another JSON.
+inline std::vector<uint8_t> withJson(std::span<const uint8_t> file, const Json& json) {
+  GlbFile glb;
+  const Result result = readGlb(file, glb);
+  if (!result.ok()) throw std::runtime_error("GLB: " + result.message());
+  return glbOf(json, glb.bin);
 }
 
 }  // namespace mcc::gltf::test

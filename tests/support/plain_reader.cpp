@@ -86,6 +86,19 @@ uint64_t numberOf(const Json& object, const char* key, uint64_t otherwise) {
   return member == nullptr ? otherwise : numberOf(*member);
 }
 
+double component(const Elements& elements, size_t i, size_t c) {
+  return componentAt(static_cast<int>(elements.component_type), elements.values.at(i).data(), c);
+}
+
+std::vector<double> PlainDocument::numbers(uint64_t accessor) const {
+  const Elements read = elements(accessor);
+  std::vector<double> numbers;
+  for (size_t i = 0; i < read.values.size(); ++i) {
+    for (size_t c = 0; c < read.component_count; ++c) numbers.push_back(component(read, i, c));
+  }
+  return numbers;
+}
+
 Bytes PlainDocument::fetch(const std::string& uri) const {
   if (uri.starts_with("data:")) return fromBase64(uri.substr(uri.find(',') + 1));
   const auto found = files_.find(withoutPercents(uri));
@@ -153,9 +166,7 @@ void PlainDocument::decodeMeshes() {
       const uint32_t width =
           bytesOfType(numberOf(memberOf(json, "accessors")[indices], "componentType", 0));
       Bytes& bytes = decoded_[indices];
-      for (const uint32_t index : decoded.indexSpan()) {
-        for (uint32_t i = 0; i < width; ++i) bytes.push_back(static_cast<uint8_t>(index >> 8 * i));
-      }
+      for (const uint32_t index : decoded.indexSpan()) append(bytes, index, width);
     }
   }
 }

@@ -32,6 +32,9 @@ struct Elements {
   }
 };
 
+/// Component `c` of element `i`.
+double component(const Elements& elements, size_t i, size_t c);
+
 /// A document whose buffers were found, with what other codecs hold in it decoded.
 class PlainDocument {
  public:
@@ -42,6 +45,8 @@ class PlainDocument {
 
   /// Throws std::runtime_error when the accessor is damaged.
   Elements elements(uint64_t accessor) const;
+  /// The components of all elements, and what an accessor of indices holds.
+  std::vector<double> numbers(uint64_t accessor) const;
   bool isHeldByDraco(uint64_t accessor) const { return decoded_.count(accessor) != 0; }
   Bytes viewBytes(uint64_t view) const;
   /// Returns the bytes of an image, wherever they are.

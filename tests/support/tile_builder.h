@@ -9,16 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "json/json.h"
+#include "support/gltf_builder.h"
 
 namespace mcc::test {
 
 using Bytes = std::vector<uint8_t>;
 using gltf::Json;
-
-inline void appendNumber(Bytes& to, uint64_t value, uint32_t width = 4) {
-  for (uint32_t k = 0; k < width; ++k) to.push_back(static_cast<uint8_t>(value >> (8 * k)));
-}
+using gltf::test::append;  // of numbers
 
 inline void appendText(Bytes& to, const std::string& text) {
   to.insert(to.end(), text.begin(), text.end());
@@ -37,7 +34,7 @@ inline std::string paddedJson(std::string text, size_t header_bytes) {
 /// Writes the length of a tile into its header.
 inline void setLength(Bytes& tile) {
   Bytes length;
-  appendNumber(length, tile.size());
+  append(length, tile.size());
   std::copy(length.begin(), length.end(), tile.begin() + 8);
 }
 
@@ -53,13 +50,13 @@ struct Tables {
 inline Bytes makeModelTile(const std::string& magic, const Tables& tables, const Bytes& glb) {
   Bytes tile;
   appendText(tile, magic);
-  appendNumber(tile, 1);
-  appendNumber(tile, 0);
+  append(tile, 1);
+  append(tile, 0);
   for (const size_t size : {tables.feature_json.size(), tables.feature_binary.size(),
                             tables.batch_json.size(), tables.batch_binary.size()}) {
-    appendNumber(tile, size);
+    append(tile, size);
   }
-  if (magic == "i3dm") appendNumber(tile, 1);
+  if (magic == "i3dm") append(tile, 1);
   appendText(tile, tables.feature_json);
   append(tile, tables.feature_binary);
   appendText(tile, tables.batch_json);
@@ -73,9 +70,9 @@ inline Bytes makeModelTile(const std::string& magic, const Tables& tables, const
 inline Bytes makeCmpt(const std::vector<Bytes>& inner) {
   Bytes tile;
   appendText(tile, "cmpt");
-  appendNumber(tile, 1);
-  appendNumber(tile, 0);
-  appendNumber(tile, inner.size());
+  append(tile, 1);
+  append(tile, 0);
+  append(tile, inner.size());
   for (const Bytes& one : inner) append(tile, one);
   setLength(tile);
   return tile;
@@ -85,9 +82,9 @@ inline Bytes makeCmpt(const std::vector<Bytes>& inner) {
 inline Bytes makeSubtree(const std::string& text, const Bytes& binary) {
   Bytes file;
   appendText(file, "subt");
-  appendNumber(file, 1);
-  appendNumber(file, text.size(), 8);
-  appendNumber(file, binary.size(), 8);
+  append(file, 1);
+  append(file, text.size(), 8);
+  append(file, binary.size(), 8);
   appendText(file, text);
   append(file, binary);
   return file;

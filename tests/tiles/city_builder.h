@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "foreign/decoders.h"
-#include "gltf/document/accessors.h"
+#include "support/plain_reader.h"
 #include "support/triangles.h"
 #include "tiles/convert_tile.h"
 #include "tiles/tileset_builder.h"
@@ -94,7 +94,7 @@ inline uint32_t addIds(gltf::test::Builder& builder, const std::vector<uint32_t>
     const auto number = static_cast<float>(id);
     uint32_t stored = id;
     if (type == gltf::test::kFloat) std::memcpy(&stored, &number, 4);
-    appendNumber(bytes, stored);
+    append(bytes, stored);
   }
   const uint32_t view = builder.addView(bytes, 4);
   return builder.addAccessor(
@@ -137,30 +137,24 @@ inline ConvertedModel convertAsTile(const Bytes& source) {
 /// A vertex as tests see it: a point of the grid, and the values of other attributes.
 using Corner = std::vector<double>;
 
-/// Reads the vertices of the first primitive. `names` are the attributes that must be exact.
+/// Reads the vertices of the first primitive, without the library. `names` are the attributes that
+/// must be exact.
 inline std::vector<Corner> cornersOf(const Bytes& file, const std::vector<std::string>& names) {
-  std::vector<Corner> corners;
-  gltf::Document document;
-  const gltf::Result loaded = gltf::loadDocument(file, nullptr, document);
-  EXPECT_TRUE(loaded.ok()) << loaded.message();
-  if (!loaded.ok()) return corners;
+  gltf::test::PlainDocument document;
+  EXPECT_EQ(document.load({{"file", file}}, "file"), "");
   const double step = tiles::stepFor(kPromisedError);
-  const Json& attributes = document.json["meshes"][0]["primitives"][0]["attributes"];
+  std::vector<Corner> corners;
   std::vector<std::string> all = {"POSITION"};
   all.insert(all.end(), names.begin(), names.end());
   for (const std::string& name : all) {
-    const auto index = attributes[name].get<uint32_t>();
-    gltf::AccessorData data;
-    EXPECT_TRUE(gltf::readAccessor(document, index, data).ok()) << name;
-    const gltf::Accessor& accessor = document.accessors[index];
+    const gltf::test::Elements elements = document.elements(
+        document.json["meshes"][0]["primitives"][0]["attributes"][name].get<uint64_t>());
     const bool is_on_grid =
-        name == "POSITION" && accessor.component_type == ComponentType::kFloat32;
-    corners.resize(data.count);
-    for (uint64_t i = 0; i < data.count; ++i) {
-      const auto element = data.element(i);
-      const size_t bytes = componentBytes(accessor.component_type);
-      for (size_t at = 0; at < element.size(); at += bytes) {
-        const double value = gltf::componentValue(element.data() + at, accessor.component_type);
+        name == "POSITION" && elements.component_type == uint64_t{gltf::test::kFloat};
+    corners.resize(elements.values.size());
+    for (size_t i = 0; i < corners.size(); ++i) {
+      for (uint32_t c = 0; c < elements.component_count; ++c) {
+        const double value = component(elements, i, c);
         corners[i].push_back(is_on_grid ? std::floor(value / step + 0.5) : value);
       }
     }
@@ -169,28 +163,26 @@ inline std::vector<Corner> cornersOf(const Bytes& file, const std::vector<std::s
 }
 
 inline std::vector<uint32_t> indicesOf(const Bytes& file, uint32_t accessor) {
-  gltf::Document document;
-  std::vector<uint32_t> indices;
-  EXPECT_TRUE(gltf::loadDocument(file, nullptr, document).ok());
-  EXPECT_TRUE(gltf::readIndices(document, accessor, indices).ok());
-  return indices;
+  gltf::test::PlainDocument document;
+  EXPECT_EQ(document.load({{"file", file}}, "file"), "");
+  const std::vector<double> numbers = document.numbers(accessor);
+  return {numbers.begin(), numbers.end()};
 }
 
-inline std::vector<TriangleOf<Corner>> sortedTriangles(const std::vector<Corner>& corners,
-                                                       const std::vector<uint32_t>& indices) {
-  return sorted(trianglesOf(indices, [&](uint32_t index) { return corners.at(index); }));
+/// The triangles of the first primitive, in an order that depends on their corners alone.
+inline std::vector<TriangleOf<Corner>> trianglesIn(const Bytes& file,
+                                                   const std::vector<std::string>& names) {
+  const std::vector<Corner> corners = cornersOf(file, names);
+  const Json json = gltf::test::jsonOf(file);
+  const auto indices = json["meshes"][0]["primitives"][0]["indices"].get<uint32_t>();
+  return sorted(trianglesOf(indicesOf(file, indices), [&](uint32_t i) { return corners.at(i); }));
 }
 
 /// Expects the same triangles, up to order, with the same points of the grid and equal `names`.
-inline void expectSameTriangles(const std::vector<Corner>& source,
-                                const std::vector<uint32_t>& source_indices, const Bytes& decoded,
+inline void expectSameTriangles(const Bytes& source, const Bytes& decoded,
                                 const std::vector<std::string>& names) {
-  const auto accessor =
-      gltf::test::jsonOf(decoded)["meshes"][0]["primitives"][0]["indices"].get<uint32_t>();
-  const std::vector<Corner> corners = cornersOf(decoded, names);
-  EXPECT_EQ(source.size(), corners.size());
-  EXPECT_TRUE(sortedTriangles(source, source_indices) ==
-              sortedTriangles(corners, indicesOf(decoded, accessor)));
+  EXPECT_EQ(cornersOf(source, names).size(), cornersOf(decoded, names).size());
+  EXPECT_TRUE(trianglesIn(source, names) == trianglesIn(decoded, names));
 }
 
 inline bool isCompressed(const Bytes& file) {

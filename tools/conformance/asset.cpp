@@ -68,31 +68,16 @@ class Document {
 
   static void addBounds(Json& accessor, const NamedAttribute& a, std::span<const uint8_t> tight) {
     const uint32_t bytes = componentBytes(a.format.component_type);
-    const uint32_t n = a.format.component_count;
-    std::vector<double> low;
-    std::vector<double> high;
-    for (size_t i = 0; i < tight.size() / bytes; ++i) {
-      const double x = gltf::componentValue(&tight[i * bytes], a.format.component_type);
-      if (i < n) {
-        low.push_back(x);
-        high.push_back(x);
+    std::vector<double> values;
+    for (size_t at = 0; at < tight.size(); at += bytes)
+      values.push_back(gltf::componentValue(&tight[at], a.format.component_type));
+    gltf::test::Builder::setBounds<double>(accessor, values, a.format.component_count);
+    for (const char* bound : {"min", "max"}) {
+      for (Json& value : accessor[bound]) {
+        const auto x = value.get<double>();
+        if (x == std::floor(x) && std::fabs(x) < 1e15) value = static_cast<int64_t>(x);
       }
-      low[i % n] = std::min(low[i % n], x);
-      high[i % n] = std::max(high[i % n], x);
     }
-    const auto write = [&](const std::vector<double>& bounds) {
-      Json array = Json::array();
-      for (const double x : bounds) {
-        if (x == std::floor(x) && std::fabs(x) < 1e15) {
-          array.push_back(static_cast<int64_t>(x));
-        } else {
-          array.push_back(x);
-        }
-      }
-      return array;
-    };
-    accessor["min"] = write(low);
-    accessor["max"] = write(high);
   }
 
   uint32_t addAccessor(const NamedAttribute& a, uint32_t count, std::span<const uint8_t> tight) {
@@ -317,15 +302,9 @@ gltf::test::Builder documentOf(const Asset& asset) {
 
 std::vector<uint8_t> makeGlb(const Asset& asset) {
   const gltf::test::Builder made = documentOf(asset);
-  return glbOf(made.json, made.bin);
+  return gltf::test::glbOf(made.json, made.bin);
 }
 
 Json expectedOf(const Asset& asset) { return Document(asset).expected(); }
-
-std::vector<uint8_t> glbOf(const Json& json, std::span<const uint8_t> bin) {
-  std::vector<uint8_t> file;
-  check(gltf::writeGlb(gltf::printJson(json), bin, {}, file), "GLB");
-  return file;
-}
 
 }  // namespace mcc::conformance

@@ -95,9 +95,6 @@ gltf::test::Builder documentOf(const Asset& asset);
 /// The member "primitives" of the manifest: counts and hashes of what decodes.
 Json expectedOf(const Asset& asset);
 
-/// Makes a GLB with one mesh, for tests of documents; `bin` starts with the payload.
-std::vector<uint8_t> glbOf(const Json& json, std::span<const uint8_t> bin);
-
 }  // namespace mcc::conformance
 
 #endif  // MCC_TOOLS_CONFORMANCE_ASSET_H_

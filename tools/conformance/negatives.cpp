@@ -22,6 +22,8 @@
 namespace mcc::conformance {
 namespace {
 
+using gltf::test::glbOf;
+
 /// Returns how a payload fares; the decoded values are dropped.
 Status decode(std::span<const uint8_t> bytes) {
   Payload payload;

@@ -11,7 +11,6 @@ namespace mcc::samples {
 namespace {
 
 using test::append;
-using test::appendNumber;
 using test::appendText;
 using test::makeModelTile;
 using test::paddedJson;
@@ -19,7 +18,7 @@ using test::padTo8;
 using test::Tables;
 
 void putFloat(Bytes& to, double value) {
-  appendNumber(to, std::bit_cast<uint32_t>(static_cast<float>(value)));
+  append(to, std::bit_cast<uint32_t>(static_cast<float>(value)));
 }
 
 Json numbersOf(const Vec3& v) { return {v.x, v.y, v.z}; }
@@ -86,10 +85,10 @@ void addPropertyTable(GlbBuilder& glb, std::span<const Feature> features) {
   Bytes offsets;
   Bytes heights;
   Bytes floors;
-  appendNumber(offsets, 0);
+  append(offsets, 0);
   for (const Feature& feature : features) {
     appendText(names, feature.name);
-    appendNumber(offsets, names.size());
+    append(offsets, names.size());
     putFloat(heights, feature.height_m);
     floors.push_back(static_cast<uint8_t>(feature.floor_count));
   }

@@ -13,10 +13,6 @@ constexpr uint32_t kLinearMipmapLinear = 9987;
 constexpr uint32_t kRepeat = 10497;
 constexpr uint32_t kClampToEdge = 33071;
 
-void putInteger(std::vector<uint8_t>& bytes, uint32_t value, uint32_t width) {
-  for (uint32_t k = 0; k < width; ++k) bytes.push_back(static_cast<uint8_t>(value >> (8 * k)));
-}
-
 }  // namespace
 
 GlbBuilder::GlbBuilder(const std::string& title) {
@@ -45,7 +41,7 @@ uint32_t GlbBuilder::addIntegers(std::span<const int32_t> values, uint32_t compo
   const uint32_t stride = (components * width + 3) / 4 * 4;
   std::vector<uint8_t> bytes;
   for (size_t i = 0; i < values.size(); ++i) {
-    putInteger(bytes, static_cast<uint32_t>(values[i]), width);
+    append(bytes, static_cast<uint32_t>(values[i]), width);
     if ((i + 1) % components == 0) bytes.resize((i + 1) / components * stride, 0);
   }
   const uint32_t view = addView(bytes, stride, kForVertices);
@@ -67,7 +63,7 @@ uint32_t GlbBuilder::addPlainIndices(std::span<const uint32_t> indices) {
 uint32_t GlbBuilder::addIndices(std::span<const uint32_t> indices, int target) {
   const bool is_short = *std::max_element(indices.begin(), indices.end()) < 65535;
   std::vector<uint8_t> bytes;
-  for (const uint32_t index : indices) putInteger(bytes, index, is_short ? 2 : 4);
+  for (const uint32_t index : indices) append(bytes, index, is_short ? 2 : 4);
   const uint32_t view = addView(bytes, 0, target);
   return addAccessor(view, is_short ? kUnsignedShort : kUnsignedInt, "SCALAR", indices.size());
 }
@@ -75,7 +71,7 @@ uint32_t GlbBuilder::addIndices(std::span<const uint32_t> indices, int target) {
 Json GlbBuilder::addReplacements(std::span<const uint32_t> where,
                                  const std::vector<float>& values) {
   std::vector<uint8_t> indices;
-  for (const uint32_t index : where) putInteger(indices, index, 2);
+  for (const uint32_t index : where) append(indices, index, 2);
   const uint32_t index_view = addView(indices);
   const uint32_t value_view = addView(bytesOf(values));
   return {{"count", where.size()},
