@@ -24,7 +24,7 @@
 #if __has_include("draco/compression/expert_encode.h")
 #define MCC_HAS_DRACO_HEADERS 1
 #include "draco/compression/expert_encode.h"
-#include "json/json.h"
+#include "support/plain_reader.h"
 #include "support/triangles.h"
 #endif
 
@@ -83,21 +83,6 @@ bool formatOf(const std::string& name, const gltf::Json& accessor, AttributeForm
   return true;
 }
 
-/// Tightly packed elements of an accessor without sparse part.
-std::vector<std::byte> readAccessor(const gltf::Json& document, const std::vector<char>& binary,
-                                    const gltf::Json& accessor, size_t element_bytes) {
-  const gltf::Json& view = document["bufferViews"][accessor["bufferView"].get<size_t>()];
-  const size_t count = accessor["count"];
-  const size_t stride = view.value("byteStride", element_bytes);
-  const size_t start =
-      view.value("byteOffset", size_t{0}) + accessor.value("byteOffset", size_t{0});
-  std::vector<std::byte> result(count * element_bytes);
-  for (size_t i = 0; i < count; ++i) {
-    std::memcpy(&result[i * element_bytes], &binary.at(start + i * stride), element_bytes);
-  }
-  return result;
-}
-
 /// Reads the first primitive of a corpus GLB; false when the corpus is absent.
 bool loadModel(const std::string& name, const Bits& bits, Model& model) {
 #if defined(MCC_CORPUS_DIR)
@@ -107,26 +92,15 @@ bool loadModel(const std::string& name, const Bits& bits, Model& model) {
 #endif
   std::ifstream file(path, std::ios::binary);
   if (!file) return false;
-  const std::vector<char> glb((std::istreambuf_iterator<char>(file)),
-                              std::istreambuf_iterator<char>());
-  uint32_t json_bytes = 0;
-  std::memcpy(&json_bytes, &glb.at(12), 4);
-  const gltf::Json document = gltf::Json::parse({glb.data() + 20, json_bytes});
-  const std::vector<char> binary(glb.begin() + 20 + json_bytes + 8, glb.end());
-  const gltf::Json& primitive = document["meshes"][0]["primitives"][0];
-  const gltf::Json& index_accessor = document["accessors"][primitive["indices"].get<size_t>()];
-  AttributeFormat index_format;
-  if (!formatOf("INDEX", index_accessor, index_format)) return false;
-  const size_t index_bytes = componentBytes(index_format.component_type);
-  const std::vector<std::byte> indices =
-      readAccessor(document, binary, index_accessor, index_bytes);
-  for (size_t i = 0; i < indices.size(); i += index_bytes) {
-    uint32_t index = 0;
-    std::memcpy(&index, &indices[i], index_bytes);
-    model.indices.push_back(index);
-  }
+  const std::vector<uint8_t> glb((std::istreambuf_iterator<char>(file)),
+                                 std::istreambuf_iterator<char>());
+  gltf::test::PlainDocument document;
+  EXPECT_EQ(document.load({{name, glb}}, name), "");
+  const gltf::Json& primitive = document.json["meshes"][0]["primitives"][0];
+  const std::vector<double> indices = document.numbers(primitive["indices"].get<uint64_t>());
+  model.indices.assign(indices.begin(), indices.end());
   for (const auto& [semantic, accessor_index] : primitive["attributes"].items()) {
-    const gltf::Json& accessor = document["accessors"][accessor_index.get<size_t>()];
+    const gltf::Json& accessor = document.json["accessors"][accessor_index.get<size_t>()];
     AttributeFormat format;
     if (!formatOf(semantic, accessor, format)) return false;
     model.wedge_count = accessor["count"];
@@ -135,7 +109,11 @@ bool loadModel(const std::string& name, const Bits& bits, Model& model) {
                               : format.semantic == Semantic::kTexcoord ? bits.texcoord
                               : format.semantic == Semantic::kColor    ? bits.color
                                                                        : bits.generic;
-    model.add(format, readAccessor(document, binary, accessor, elementBytes(format)), bits_here);
+    std::vector<std::byte> column;
+    for (const std::string& element : document.elements(accessor_index.get<uint64_t>()).values) {
+      for (const char byte : element) column.push_back(static_cast<std::byte>(byte));
+    }
+    model.add(format, std::move(column), bits_here);
   }
   return true;
 }
