@@ -10,7 +10,7 @@ import { readGlb } from '../../lib/web/unpack.mjs';
 import { unpackGltf } from '../../lib/web/unpack_gltf.mjs';
 import { PayloadViews } from '../../lib/web/views.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
-import { glbOf } from './support/families.mjs';
+import { glbOf } from './support/glb.mjs';
 import { readSample } from './support/program.mjs';
 import { b3dm } from './support/tiles.mjs';
 

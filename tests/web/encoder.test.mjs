@@ -11,6 +11,7 @@ import { encodeGlb, initEncoder } from '../../lib/web/encoder.mjs';
 import { MccError } from '../../lib/web/error.mjs';
 import { readGlb, unpackGlb } from '../../lib/web/unpack.mjs';
 import { wasm } from './support/conformance.mjs';
+import { glbOf } from './support/glb.mjs';
 
 const fileOf = (name) => fileURLToPath(new URL(`../../samples/${name}.glb`, import.meta.url));
 const sample = (name) => new Uint8Array(readFileSync(fileOf(name)));
@@ -103,12 +104,7 @@ function sheet(side) {
       { bufferView: 1, type: 'SCALAR', componentType: 5125, count: indices.length }],
     meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
   };
-  let text = JSON.stringify(json);
-  text += ' '.repeat((4 - text.length % 4) % 4);
-  const binary = Buffer.concat([positions, indices].map(({ buffer }) => Buffer.from(buffer)));
-  const words = (...numbers) => Buffer.from(Uint32Array.from(numbers).buffer);
-  return new Uint8Array(Buffer.concat([words(0x46546c67, 2, 28 + text.length + binary.length, text.length, 0x4e4f534a), Buffer.from(text),
-    words(binary.length, 0x004e4942), binary]));
+  return glbOf(json, Buffer.concat([positions, indices].map(({ buffer }) => Buffer.from(buffer))));
 }
 
 test('a preview', async () => {

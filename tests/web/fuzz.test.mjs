@@ -16,7 +16,7 @@ import { unpackGltf } from '../../lib/web/unpack_gltf.mjs';
 import { PayloadViews } from '../../lib/web/views.mjs';
 import { blocksGlb } from './support/blocks.mjs';
 import { manifest, payloadOf, readAsset } from './support/conformance.mjs';
-import { glbOf } from './support/families.mjs';
+import { glbOf } from './support/glb.mjs';
 import { mutateBytes, mutateText, randomOf } from './support/mutations.mjs';
 import { readSample } from './support/program.mjs';
 import { b3dm, cmpt, i3dm } from './support/tiles.mjs';

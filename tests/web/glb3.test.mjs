@@ -9,29 +9,12 @@ import { elementsOf, payloadsOf } from '../../lib/web/document.mjs';
 import { decodeGlbBlocks, MccError, unpackGlb } from '../../lib/web/index.mjs';
 import { readGlb, writeGlb } from '../../lib/web/unpack.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
+import { BIN_TYPE, glb3Of, JSON_TYPE, jsonChunk } from './support/glb.mjs';
 
 const MODEL = readAsset(manifest.assets.find(({ file }) => file.endsWith('_tetrahedron.glb')));
 const PLAIN = await unpackGlb(MODEL);
-const JSON_TYPE = 0x4e4f534a;
-const BIN_TYPE = 0x004e4942;
 const OTHER_TYPE = 0x45524f4d;
 
-/** A GLB of version 3 of chunks { type, data, encoding }. */
-function glb3Of(chunks) {
-  const aligned = (length) => Math.ceil(length / 8) * 8;
-  const bytes = new Uint8Array(chunks.reduce((sum, { data }) => sum + 16 + aligned(data.length), 16));
-  const view = new DataView(bytes.buffer);
-  [0x46546c67, 3, bytes.length].forEach((word, i) => view.setUint32(4 * i, word, true));
-  let at = 16;
-  for (const { type, data, encoding = 0 } of chunks) {
-    [type, encoding, data.length].forEach((word, i) => view.setUint32(at + 4 * i, word, true));
-    bytes.set(data, at + 16);
-    at += 16 + aligned(data.length);
-  }
-  return bytes;
-}
-
-const jsonChunk = (json) => ({ type: JSON_TYPE, data: new TextEncoder().encode(JSON.stringify(json)) });
 const other = { type: OTHER_TYPE, data: Uint8Array.of(1, 2, 3, 4) };
 
 /** The model with its payload in a second buffer; `chunkOf` are the numbers of the chunks of both. */

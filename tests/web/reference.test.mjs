@@ -6,30 +6,10 @@ import { test } from 'node:test';
 import { compareGlbs } from '../../extension-spec/reference/compare.mjs';
 import { decodeGlb } from '../../extension-spec/reference/decode.mjs';
 import { readAccessor, readGlb, writeGlb } from '../../extension-spec/reference/glb.mjs';
+import { BIN_TYPE, glb3Of, jsonChunk } from './support/glb.mjs';
 import { convert, readSample } from './support/program.mjs';
 
-const JSON_CHUNK = 0x4e4f534a;
-const BIN_CHUNK = 0x004e4942;
-
-/** A GLB of version 3 with these chunks: type, bytes, encoding. */
-function glb3(chunks) {
-  const parts = chunks.map(([type, data, encoding = 0]) => {
-    const part = new Uint8Array(16 + Math.ceil(data.length / 8) * 8);
-    const view = new DataView(part.buffer);
-    view.setUint32(0, type, true);
-    view.setUint32(4, encoding, true);
-    view.setBigUint64(8, BigInt(data.length), true);
-    part.set(data, 16);
-    return part;
-  });
-  const header = Buffer.alloc(16);
-  header.writeUInt32LE(0x46546c67, 0);
-  header.writeUInt32LE(3, 4);
-  header.writeBigUInt64LE(BigInt(parts.reduce((sum, { length }) => sum + length, 16)), 8);
-  return new Uint8Array(Buffer.concat([header, ...parts]));
-}
-
-const textOf = (json) => new TextEncoder().encode(JSON.stringify(json));
+const binChunk = (data, encoding) => ({ type: BIN_TYPE, data, encoding });
 
 test('version 3 is read as version 2 is', () => {
   for (const name of ['torus', 'textured', 'two_materials']) {
@@ -38,19 +18,19 @@ test('version 3 is read as version 2 is', () => {
     assert.deepEqual(compareGlbs(readGlb(decodeGlb(third)), readGlb(expected)), [], name);
     const { json, bin } = readGlb(second);
     json.buffers[0].chunk = 1; // the document may be behind, and chunks of other types anywhere
-    assert.deepEqual(decodeGlb(glb3([[1, textOf('none')], [BIN_CHUNK, bin], [JSON_CHUNK, textOf(json)]])), expected, name);
+    assert.deepEqual(decodeGlb(glb3Of([{ ...jsonChunk('none'), type: 1 }, binChunk(bin), jsonChunk(json)])), expected, name);
   }
 });
 
 test('what it does not read is refused', () => {
   const { json, bin } = readGlb(convert(readSample('torus')));
   const refuses = (glb, message) => assert.throws(() => decodeGlb(glb), { name: 'DocumentError', message });
-  refuses(glb3([[JSON_CHUNK, textOf(json)], [BIN_CHUNK, bin, 1]]), 'a chunk is encoded');
-  refuses(glb3([[BIN_CHUNK, bin]]), 'no JSON chunk');
-  refuses(glb3([[JSON_CHUNK, textOf(json)], [BIN_CHUNK, bin]]).slice(0, -8), 'a chunk exceeds the file');
+  refuses(glb3Of([jsonChunk(json), binChunk(bin, 1)]), 'a chunk is encoded');
+  refuses(glb3Of([binChunk(bin)]), 'no JSON chunk');
+  refuses(glb3Of([jsonChunk(json), binChunk(bin)]).slice(0, -8), 'a chunk exceeds the file');
   const two = { ...json, buffers: [...json.buffers, { byteLength: 4, chunk: 2 }] };
-  refuses(glb3([[JSON_CHUNK, textOf(two)], [BIN_CHUNK, bin], [BIN_CHUNK, bin]]), 'only one BIN chunk can be read');
-  refuses(glb3([[JSON_CHUNK, textOf({ ...json, buffers: [{ ...json.buffers[0], chunk: 9 }] })]]), 'only the BIN chunk can be read');
+  refuses(glb3Of([jsonChunk(two), binChunk(bin), binChunk(bin)]), 'only one BIN chunk can be read');
+  refuses(glb3Of([jsonChunk({ ...json, buffers: [{ ...json.buffers[0], chunk: 9 }] })]), 'only the BIN chunk can be read');
 });
 
 test('int32 comes back', () => {

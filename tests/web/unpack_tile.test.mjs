@@ -12,6 +12,7 @@ import { payloadsOf } from '../../lib/web/document.mjs';
 import { createDecoderPool, MccError, unpackGlb, unpackTile } from '../../lib/web/index.mjs';
 import { readGlb } from '../../lib/web/unpack.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
+import { glbOf } from './support/glb.mjs';
 import { SAMPLES } from './support/paths.mjs';
 import { PROGRAM } from './support/program.mjs';
 import { b3dm, cmpt, i3dm, i3dmOf, joined, modelTile, pnts, readTile, textBytes } from './support/tiles.mjs';
@@ -124,12 +125,7 @@ function withoutLinks(tile) {
 /** A GLB with another name in its JSON, padded as it must be. */
 function withName(glb, name) {
   const { json, chunks: [{ data }] } = readGlb(glb);
-  const text = JSON.stringify({ ...json, asset: { ...json.asset, generator: name } });
-  const padded = textBytes(text.padEnd(Math.ceil(text.length / 4) * 4));
-  const chunk = (type, bytes) => [new Uint8Array(new Uint32Array([bytes.length, type]).buffer), bytes];
-  const all = joined([new Uint8Array(12), ...chunk(0x4e4f534a, padded), ...chunk(0x004e4942, data)]);
-  all.set(glb.subarray(0, 8));
-  return withNumber(all, 8, all.length);
+  return glbOf({ ...json, asset: { ...json.asset, generator: name } }, data);
 }
 
 describe('tiles without compressed models', () => {

@@ -12,7 +12,8 @@ import { readGlb, unpackGlb } from '../../lib/web/unpack.mjs';
 import { unpackGltf } from '../../lib/web/unpack_gltf.mjs';
 import { usesOf } from '../../lib/web/uses.mjs';
 import { PayloadViews } from '../../lib/web/views.mjs';
-import { FAMILIES, glbOf } from './support/families.mjs';
+import { FAMILIES } from './support/families.mjs';
+import { glbOf } from './support/glb.mjs';
 
 const SMALL = 60;
 const OVERLAPPING = 'primitives whose payloads overlap in 10 MB';

@@ -9,7 +9,7 @@ import { buffer } from 'node:stream/consumers';
 import { after, before, test } from 'node:test';
 import { PNG } from 'pngjs';
 import { payloadsOf } from '../../../lib/web/document.mjs';
-import { readGlb, unpackGlb, writeGlb } from '../../../lib/web/unpack.mjs';
+import { BIN_CHUNK, readGlb, unpackGlb, writeGlb } from '../../../lib/web/unpack.mjs';
 import { serve } from '../../../samples/viewer/serve.mjs';
 import { gather } from '../../../samples/viewer/setup.mjs';
 import { brotli, encodeFile } from '../support/bench/encode.mjs';
@@ -504,12 +504,9 @@ async function downloaded(page) {
   return { name: download.suggestedFilename(), bytes: await contentOf(download) };
 }
 
-function glbOf(json) {
-  const text = Buffer.from(JSON.stringify({ asset: { version: '2.0' }, ...json }));
-  const chunk = Buffer.concat([text, Buffer.alloc((4 - text.length % 4) % 4, ' ')]);
-  const header = Buffer.alloc(20);
-  [0x46546c67, 2, 20 + chunk.length, chunk.length, 0x4e4f534a].forEach((word, i) => header.writeUInt32LE(word, 4 * i));
-  return Buffer.concat([header, chunk]);
+/** A document, and the buffer that it has, as a GLB. */
+function glbOf(json, ...buffers) {
+  return Buffer.from(writeGlb({ asset: { version: '2.0' }, ...json }, buffers.map((data) => ({ type: BIN_CHUNK, data }))));
 }
 
 const triangles = (count) => ({
@@ -737,7 +734,7 @@ function largeSheet(side) {
       indices.set([corner, corner + 1, corner + side, corner + 1, corner + side + 1, corner + side], at);
     }
   }
-  return withBuffer({
+  return glbOf({
     scenes: [{ nodes: [0] }],
     nodes: [{ mesh: 0 }],
     meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
@@ -747,15 +744,6 @@ function largeSheet(side) {
       { buffer: 0, byteOffset: positions.byteLength, byteLength: indices.byteLength }],
     buffers: [{ byteLength: positions.byteLength + indices.byteLength }],
   }, Buffer.concat([Buffer.from(positions.buffer), Buffer.from(indices.buffer)]));
-}
-
-function withBuffer(json, data) {
-  const head = glbOf(json);
-  const chunk = Buffer.alloc(8);
-  [data.length, 0x004e4942].forEach((word, i) => chunk.writeUInt32LE(word, 4 * i));
-  const glb = Buffer.concat([head, chunk, data]);
-  glb.writeUInt32LE(glb.length, 8);
-  return glb;
 }
 
 test('what the page has compressed to blocks appears block by block', async () => {

@@ -3,6 +3,7 @@
 // Families of documents with n of one thing, hostile ones among them: work and memory must be in proportion to their bytes. Everything is
 // built here from one small payload, so that the library that is measured need not be the one of this tree.
 import { readFileSync } from 'node:fs';
+import { glbOf } from './glb.mjs';
 import { b3dm, cmpt } from './tiles.mjs';
 
 const NAME = 'KHR_mesh_collapse_compression';
@@ -17,19 +18,6 @@ function splitGlb(glb) {
   const jsonBytes = view.getUint32(12, true);
   const json = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + jsonBytes)));
   return { json, bin: glb.subarray(28 + jsonBytes, 28 + jsonBytes + view.getUint32(20 + jsonBytes, true)) };
-}
-
-/** A GLB of a document, or of its text, and of its BIN chunk. */
-export function glbOf(json, bin) {
-  const text = Buffer.from(typeof json === 'string' ? json : JSON.stringify(json));
-  const jsonBytes = Math.ceil(text.length / 4) * 4;
-  const binBytes = Math.ceil(bin.length / 4) * 4;
-  const glb = new Uint8Array(28 + jsonBytes + binBytes);
-  new Uint32Array(glb.buffer, 0, 5).set([0x46546c67, 2, glb.length, jsonBytes, 0x4e4f534a]);
-  glb.fill(0x20, 20, 20 + jsonBytes).set(text, 20);
-  new Uint32Array(glb.buffer, 20 + jsonBytes, 2).set([binBytes, 0x004e4942]);
-  glb.set(bin, 28 + jsonBytes);
-  return glb;
 }
 
 const joined = ({ json, bin }) => glbOf(json, bin);

@@ -2,6 +2,7 @@
 import { EXTENSION_NAME } from '../../../lib/web/index.mjs';
 import { readGlb } from '../../../lib/web/unpack.mjs';
 import { blocksGlb, payloadsIn } from './blocks.mjs';
+import { glbOf } from './glb.mjs';
 import { convert, readSample } from './program.mjs';
 
 /**
@@ -21,18 +22,10 @@ export function withPreview(file, bytes, change = () => {}) {
   json.meshes[0].primitives[0].extensions[EXTENSION_NAME].preview = object;
   change(object, json);
   json.buffers[0].byteLength = moved + data.length;
-  const text = new TextEncoder().encode(JSON.stringify(json));
-  const textBytes = (text.length + 3) & ~3;
-  const result = new Uint8Array(28 + textBytes + moved + ((data.length + 3) & ~3)).fill(0x20, 20, 20 + textBytes);
-  const words = new DataView(result.buffer);
-  [0x46546c67, 2, result.length, textBytes, 0x4e4f534a].forEach((word, i) => words.setUint32(4 * i, word, true));
-  result.set(text, 20);
-  const binAt = 28 + textBytes;
-  words.setUint32(20 + textBytes, result.length - binAt, true);
-  words.setUint32(24 + textBytes, 0x4e4942, true);
-  result.set(bytes, binAt);
-  result.set(data, binAt + moved);
-  return result;
+  const bin = new Uint8Array(moved + data.length);
+  bin.set(bytes);
+  bin.set(data, moved);
+  return glbOf(json, bin);
 }
 
 /**

@@ -9,6 +9,7 @@ import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
+import { glbOf } from '../../../tests/web/support/glb.mjs';
 
 const FLOAT = 5126;
 const UNSIGNED_BYTE = 5121;
@@ -43,12 +44,7 @@ class Builder {
 	}
 	toGlb() {
 		this.json.buffers = [{ byteLength: this.length }, ...(this.json.buffers ?? [])];
-		const text = Buffer.from(JSON.stringify(this.json));
-		const json = Buffer.concat([text, Buffer.alloc(-text.length & 3, ' ')]);
-		const words = (...values) => new Uint8Array(Uint32Array.from(values).buffer);
-		const chunk = (type, bytes) => Buffer.concat([words(bytes.length, type), bytes]);
-		const body = Buffer.concat([chunk(0x4e4f534a, json), chunk(0x004e4942, Buffer.concat(this.chunks))]);
-		return Buffer.concat([words(0x46546c67, 2, 12 + body.length), body]);
+		return glbOf(this.json, Buffer.concat(this.chunks));
 	}
 }
 
