@@ -5,7 +5,8 @@
 import { AddedBuffers, isAddedBuffer, isJson } from './added_buffers.mjs';
 import { usesExtension } from './document.mjs';
 import { requireArgument } from './error.mjs';
-import { decodeAnywhere, preload } from './threads.mjs';
+import { decodeAnywhere } from './threads.mjs';
+import { preload, unpackAnywhere } from './tile_threads.mjs';
 import { namesExtension, unpackIfOurs } from './unpack_tile.mjs';
 
 export { preload };
@@ -25,7 +26,7 @@ export function registerMeshCollapse(Resource, options) {
   if (known.has(Resource)) return;
   known.add(Resource);
   if (options?.decode === undefined) preload();
-  const files = new Files(Resource.prototype.fetchArrayBuffer, { ...options, decode: options?.decode ?? decodeAnywhere });
+  const files = new Files(Resource.prototype.fetchArrayBuffer, options ?? {});
   Resource.prototype.fetchArrayBuffer = function fetchArrayBuffer() {
     return files.fetch(this);
   };
@@ -33,13 +34,13 @@ export function registerMeshCollapse(Resource, options) {
 
 class Files {
   #fetchArrayBuffer;
-  #options;
+  #unpackFile;
   #buffers;
 
-  constructor(fetchArrayBuffer, options) {
+  constructor(fetchArrayBuffer, { decode, limits }) {
     this.#fetchArrayBuffer = fetchArrayBuffer;
-    this.#options = options;
-    this.#buffers = new AddedBuffers(options);
+    this.#unpackFile = (bytes) => (decode ? unpackIfOurs(bytes, { decode, limits }) : unpackAnywhere(bytes, limits));
+    this.#buffers = new AddedBuffers({ decode: decode ?? decodeAnywhere, limits });
   }
 
   /** Returns a promise of an ArrayBuffer, or undefined, as CesiumJS does, if too many requests are active. */
@@ -57,7 +58,7 @@ class Files {
     const bytes = new Uint8Array(buffer);
     const document = url === undefined ? undefined : documentOf(bytes);
     if (document !== undefined) return this.#unpackDocument(resource, url, document) ?? buffer;
-    const plain = await unpackIfOurs(bytes, this.#options);
+    const plain = await this.#unpackFile(bytes);
     return plain === bytes ? buffer : bufferOf(plain);
   }
 

@@ -341,7 +341,9 @@ export function elementBytes(accessor, array, target) {
   if (!isPadded) return tight;
   const count = accessor.count * columns;
   const bytes = new Uint8Array(count * paddedBytes);
-  for (let i = 0; i < count; ++i) bytes.set(tight.subarray(i * columnBytes, (i + 1) * columnBytes), i * paddedBytes);
+  for (let from = 0, to = 0; from < tight.length; to += paddedBytes - columnBytes) {
+    for (const end = from + columnBytes; from < end;) bytes[to++] = tight[from++];
+  }
   return bytes;
 }
 

@@ -10,6 +10,7 @@ import { fail, placed } from './error.mjs';
 import { decodePacked, readPacked, unpackGlb } from './unpack.mjs';
 
 const ALIGNMENT = 8;
+const JSON_AT = 20; // in a GLB
 const COMMON_HEADER_BYTES = 12; // magic, version, byteLength
 const HEADER_BYTES = { glTF: 12, b3dm: 28, i3dm: 32, cmpt: 16 };
 const TABLES = [0, 1, 2, 3]; // feature table as JSON and binary, batch table as JSON and binary
@@ -61,6 +62,14 @@ export async function unpackTile(bytes, options) {
 
 /** Whether the name of the extension is anywhere in a file: of a damaged one, it is not known where its models are. */
 export const namesExtension = (bytes) => new TextDecoder('latin1').decode(bytes).includes(EXTENSION_NAME);
+
+/** Whether unpackTile() can make something else of a file. It is quick for models without the extension, of which only the JSON is read. */
+export function mayBeOurs(bytes) {
+  const kind = kindOf(bytes);
+  const isGlb2 = kind === 'glTF' && bytes.length >= JSON_AT && viewOf(bytes).getUint32(4, true) === 2;
+  const part = isGlb2 ? bytes.subarray(JSON_AT, JSON_AT + viewOf(bytes).getUint32(JSON_AT - 8, true)) : bytes;
+  return kind !== undefined && /KHR_mesh_collapse_compression|\\u/.test(new TextDecoder('latin1').decode(part)); // \u: any letter
+}
 
 /** unpackTile() of what may be any file: engines read containers of older drafts, too, and it is not for us to complain about them. */
 export async function unpackIfOurs(bytes, options) {

@@ -5,13 +5,13 @@ import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { encodeGlb, initEncoder } from '../../lib/web/encoder.mjs';
 import { decodeBlocks, decodeGlbBlocks, decodePayload, MccError, unpackGlb, unpackTile } from '../../lib/web/index.mjs';
-import { EXTENSION_NAME, payloadsOf } from '../../lib/web/document.mjs';
+import { elementsOf, EXTENSION_NAME, payloadsOf } from '../../lib/web/document.mjs';
 import { readGlb } from '../../lib/web/unpack.mjs';
 import { unpackGltf } from '../../lib/web/unpack_gltf.mjs';
 import { PayloadViews } from '../../lib/web/views.mjs';
 import { manifest, readAsset } from './support/conformance.mjs';
 import { glbOf } from './support/glb.mjs';
-import { readSample } from './support/program.mjs';
+import { convert, readSample } from './support/program.mjs';
 import { b3dm } from './support/tiles.mjs';
 
 const MODEL = readAsset(manifest.assets.find(({ file }) => file.endsWith('_tetrahedron.glb')));
@@ -192,4 +192,29 @@ describe('options', () => {
 test('a fallback that says it is in a view far away costs nothing', async () => {
   const { glb } = changed((json) => { json.accessors.forEach((accessor) => { accessor.bufferView = 2 ** 32 - 2; }); });
   await messageOf(unpackGlb(glb));
+});
+
+test('elements of a size that glTF must pad are each where the stride says', async () => {
+  const source = convert(readSample('quantized'));
+  const { json: before, chunks: [{ data }] } = readGlb(source);
+  const { json, chunks: [{ data: bin }] } = readGlb(await unpackGlb(source));
+  let padded = 0;
+  for (const payload of payloadsOf(before)) {
+    const { byteOffset = 0, byteLength } = before.bufferViews[payload.bufferView];
+    const decoded = await decodePayload(data.subarray(byteOffset, byteOffset + byteLength));
+    for (const target of payload.targets) {
+      const accessor = json.accessors[target.accessor];
+      const view = json.bufferViews[accessor.bufferView];
+      const tight = elementsOf(decoded, target, accessor);
+      const bytes = new Uint8Array(tight.buffer, tight.byteOffset, tight.byteLength);
+      const size = bytes.length / accessor.count;
+      const stride = view.byteStride ?? size;
+      if (stride !== size) ++padded;
+      for (let i = 0; i < accessor.count; ++i) {
+        const at = view.byteOffset + i * stride;
+        assert.deepEqual(bin.subarray(at, at + size), bytes.subarray(i * size, (i + 1) * size), `accessor ${target.accessor}, element ${i}`);
+      }
+    }
+  }
+  assert.ok(padded > 0);
 });

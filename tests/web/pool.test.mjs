@@ -6,6 +6,7 @@ import { after, test } from 'node:test';
 import { createDecoderPool, decodePayload, MccError } from '../../lib/web/index.mjs';
 import { blocksPayload } from './support/blocks.mjs';
 import { manifest, payloadOf, readAsset } from './support/conformance.mjs';
+import { withWorkers } from './support/node_workers.mjs';
 import { convert, readSample } from './support/program.mjs';
 
 const payload = () => payloadOf(readAsset(manifest.assets.find(({ file }) => file.endsWith('_tetrahedron.glb'))));
@@ -109,29 +110,6 @@ test('modules that are none reject what is decoded with them', async () => {
     other.dispose();
   }
 });
-
-/** Calls `change` with each worker of Node that is made meanwhile. */
-async function withWorkers(change, work) {
-  const { Worker } = globalThis;
-  const { Worker: NodeWorker } = await import('node:worker_threads');
-  globalThis.Worker = class {
-    constructor(url) {
-      this.worker = new NodeWorker(url);
-      this.worker.on('message', (data) => this.onmessage({ data }));
-      this.worker.on('error', (error) => this.onerror(error));
-      change(this);
-    }
-
-    postMessage(...args) { this.worker.postMessage(...args); }
-
-    terminate() { this.worker.terminate(); }
-  };
-  try {
-    await work();
-  } finally {
-    globalThis.Worker = Worker;
-  }
-}
 
 test('a worker of a browser that fails settles its promise and is replaced', async () => {
   const made = [];

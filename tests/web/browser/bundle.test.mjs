@@ -1,11 +1,13 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// Applications with the README's code for three.js, bundled by Vite: the bundle finds its worker, its WebAssembly and its later chunks.
+// Applications with the README's code for three.js, and with gltf-mcc/cesium, bundled by Vite: the bundle finds its workers, its WebAssembly and
+// its later chunks.
 import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
+import { unpackGlb } from '../../../lib/web/index.mjs';
 import { blocksGlb } from '../support/blocks.mjs';
 import { bundle } from '../support/bundle.mjs';
 import { convert, readSample } from '../support/program.mjs';
@@ -28,6 +30,16 @@ const APPLICATIONS = {
     const onBlock = (geometry, { index }) => globalThis.blocks.push([index, geometry.index.count]);
     const loader = new GLTFLoader().register((parser) => new MeshCollapsePlugin(parser, { onBlock }));
     globalThis.scene = new Scene().add((await loader.loadAsync('blocks.glb')).scene);
+    globalThis.isLoaded = true;`,
+  'tiles.html': pageOf('tiles.js'),
+  'tiles.js': `
+    import { registerMeshCollapse } from 'gltf-mcc/cesium';
+    class Resource { // in place of CesiumJS's
+      constructor(url) { this.url = url; }
+      async fetchArrayBuffer() { return (await fetch(this.url)).arrayBuffer(); }
+    }
+    registerMeshCollapse(Resource);
+    globalThis.bytes = [...new Uint8Array(await new Resource('model.glb').fetchArrayBuffer())];
     globalThis.isLoaded = true;`,
   'no_workers.html': pageOf('no_workers.js'),
   'no_workers.js': "delete globalThis.Worker; await import('./blocks.js');",
@@ -62,6 +74,14 @@ async function load(name) {
 
 test('a bundle loads models, in workers, under a Content-Security-Policy', async () => {
   assert.ok((await load('index')).workers > 0);
+});
+
+test('a bundle with gltf-mcc/cesium makes files without the extension in its own worker', async () => {
+  const { page, violations } = await openPage(site.browser, `${site.server.origin}/bundle/tiles.html`, () => globalThis.isLoaded);
+  const expected = await unpackGlb(convert(readSample('torus')));
+  assert.deepEqual(await page.evaluate(() => globalThis.bytes), [...expected]);
+  assert.deepEqual(page.workers().map((worker) => /tile_worker/.test(worker.url())), [true]);
+  assert.deepEqual([violations(), site.server.missing], [[], []]);
 });
 
 for (const [name, hasWorkers] of [['blocks', true], ['no_workers', false]]) {
