@@ -12,11 +12,14 @@ const BUFFER_PARAMETER = 'gltf-mcc-buffer';
 const MOST_BUFFERS = 64;
 const MOST_BUFFER_BYTES = 2 ** 28;
 
-/** What JSON begins with, after spaces, is within so many bytes. */
-const START_BYTES = 20;
+const isSpace = (byte) => byte === 0x20 || (byte >= 0x09 && byte <= 0x0d);
 
 /** Whether a file that begins with these bytes may be a .gltf document. */
-export const isJson = (bytes) => new TextDecoder().decode(bytes.subarray(0, START_BYTES)).trimStart()[0] === '{';
+export function isJson(bytes) {
+  let at = bytes[0] === 0xef ? 3 : 0; // a byte order mark
+  while (isSpace(bytes[at])) ++at;
+  return bytes[at] === 0x7b;
+}
 
 /** @param {URL} url */
 export const isAddedBuffer = (url) => url.searchParams.has(BUFFER_PARAMETER);

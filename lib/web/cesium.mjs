@@ -7,7 +7,7 @@ import { usesExtension } from './document.mjs';
 import { requireArgument } from './error.mjs';
 import { decodeAnywhere } from './threads.mjs';
 import { preload, unpackAnywhere } from './tile_threads.mjs';
-import { namesExtension, unpackIfOurs } from './unpack_tile.mjs';
+import { mayNameExtension, unpackIfOurs } from './unpack_tile.mjs';
 
 export { preload };
 
@@ -84,7 +84,7 @@ function addressOf({ url }) {
 
 /** Returns the .gltf document that a file is, or undefined if it does not use the extension. Tilesets, too, are JSON, and may be large. */
 function documentOf(bytes) {
-  if (!isJson(bytes) || !namesExtension(bytes)) return undefined;
+  if (!isJson(bytes) || !mayNameExtension(bytes)) return undefined;
   try {
     const json = JSON.parse(new TextDecoder().decode(bytes));
     return usesExtension(json) ? json : undefined;

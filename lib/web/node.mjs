@@ -11,19 +11,20 @@ function importOfNode(name) {
 /** Returns a promise of the bytes of a file; undefined for other URLs. */
 export const fileOf = (url) => (url.protocol === 'file:' ? importOfNode('fs/promises').then(({ readFile }) => readFile(url)) : undefined);
 
-/** Creates a worker that has the interface of the browser's. */
-export async function workerOfNode(onMessage, onError) {
+/** Creates a worker that has the interface of the browser's. `take` is called with each message, or undefined and an error. */
+export async function workerOfNode(take) {
   const threads = await importOfNode('worker_threads');
   const worker = new threads.Worker(new URL('./worker.mjs', import.meta.url));
-  worker.on('message', onMessage);
-  for (const event of ['error', 'messageerror']) worker.on(event, onError);
-  worker.on('exit', () => onError({ message: 'it has ended' }));
+  worker.on('message', (data) => take(data));
+  for (const event of ['error', 'messageerror']) worker.on(event, (error) => take(undefined, error));
+  worker.on('exit', () => take(undefined, { message: 'it has ended' }));
   return worker;
 }
 
-/** Calls a function with each message to this worker, and with a function that answers. Messages are queued until it listens. */
-export async function listenInNode(take, unreadable) {
+/** Calls a function with each message to this worker, and `use` with one that answers. Messages are queued until then. */
+export async function listenInNode(take, unreadable, use) {
   const { parentPort } = await importOfNode('worker_threads');
-  parentPort.on('message', (data) => take(data, (message, moved) => parentPort.postMessage(message, moved)));
+  use((message, moved) => parentPort.postMessage(message, moved));
+  parentPort.on('message', take);
   parentPort.on('messageerror', () => parentPort.postMessage(unreadable));
 }

@@ -105,4 +105,5 @@ function once(onBlock) {
   };
 }
 
-const isAboutPayload = ({ code }) => typeof code === 'string' && code !== 'Load';
+/** Whether an error of a pool says that a payload or an option is wrong, and not that there are no workers. */
+export const isAboutPayload = ({ code }) => typeof code === 'string' && code !== 'Load';

@@ -341,8 +341,8 @@ export function elementBytes(accessor, array, target) {
   if (!isPadded) return tight;
   const count = accessor.count * columns;
   const bytes = new Uint8Array(count * paddedBytes);
-  for (let from = 0, to = 0; from < tight.length; to += paddedBytes - columnBytes) {
-    for (const end = from + columnBytes; from < end;) bytes[to++] = tight[from++];
+  for (let i = 0; i < count; ++i) {
+    for (let k = 0; k < columnBytes; ++k) bytes[i * paddedBytes + k] = tight[i * columnBytes + k];
   }
   return bytes;
 }

@@ -61,14 +61,18 @@ export async function unpackTile(bytes, options) {
 }
 
 /** Whether the name of the extension is anywhere in a file: of a damaged one, it is not known where its models are. */
-export const namesExtension = (bytes) => new TextDecoder('latin1').decode(bytes).includes(EXTENSION_NAME);
+const namesExtension = (bytes) => textOf(bytes).includes(EXTENSION_NAME);
+const textOf = (bytes) => new TextDecoder('latin1').decode(bytes);
 
-/** Whether unpackTile() can make something else of a file. It is quick for models without the extension, of which only the JSON is read. */
+/** Whether JSON may name the extension, whose letters may be escaped. It may be a part of a file that is no JSON. */
+export const mayNameExtension = (json) => /KHR_mesh_collapse_compression|\\u/.test(textOf(json));
+
+/** Whether unpackTile() may make something else of a file. Of models without the extension only the JSON is looked at. */
 export function mayBeOurs(bytes) {
   const kind = kindOf(bytes);
   const isGlb2 = kind === 'glTF' && bytes.length >= JSON_AT && viewOf(bytes).getUint32(4, true) === 2;
-  const part = isGlb2 ? bytes.subarray(JSON_AT, JSON_AT + viewOf(bytes).getUint32(JSON_AT - 8, true)) : bytes;
-  return kind !== undefined && /KHR_mesh_collapse_compression|\\u/.test(new TextDecoder('latin1').decode(part)); // \u: any letter
+  const jsonBytes = isGlb2 ? viewOf(bytes).getUint32(JSON_AT - 8, true) : 0;
+  return kind !== undefined && mayNameExtension(jsonBytes === 0 ? bytes : bytes.subarray(JSON_AT, JSON_AT + jsonBytes));
 }
 
 /** unpackTile() of what may be any file: engines read containers of older drafts, too, and it is not for us to complain about them. */

@@ -62,10 +62,16 @@ test('a .gltf comes with one more buffer, which needs no request of its own; pay
   assert.deepEqual(requests.slice(2), ['a/model.gltf?key=1', 'a/model.bin']);
 });
 
-test('a .gltf may begin with a byte order mark and spaces', async () => {
+test('a .gltf may begin with a byte order mark and spaces, and names may be spelt as JSON allows', async () => {
   const { text, data } = gltfOf();
-  const { fetch } = start({ 'model.gltf': `\ufeff\n ${text}`, 'model.bin': data });
+  const escaped = text.replaceAll('KHR_mesh', 'KHR\\u005fmesh');
+  const { fetch } = start({ 'model.gltf': `\ufeff${' '.repeat(50)}\n${escaped}`, 'model.bin': data });
   assert.equal(JSON.parse(new TextDecoder().decode(await fetch('model.gltf'))).extensionsUsed, undefined);
+});
+
+test('limits hold', async () => {
+  const { fetch } = start({ 'model.glb': MODEL }, { limits: { maxTriangles: 1 } });
+  await assert.rejects(fetch('model.glb'), { name: 'MccError', code: 'Limit' });
 });
 
 test('what is damaged is refused with the place', async () => {

@@ -24,6 +24,9 @@ const unpacking = (work) => withWorkers((worker) => made.push(worker), async () 
   await work(unpackAnywhere);
 });
 
+/** What workers have answered to files. */
+const answersOf = () => made.flatMap(({ messages }) => messages).flatMap(({ answers }) => answers ?? []);
+
 const failureOf = (promise) => promise.then(() => assert.fail('nothing was wrong'), (error) => error);
 
 /** A copy with another byte at the end of its payload. */
@@ -42,12 +45,22 @@ test('files of all kinds become what unpackTile() makes of them, many at a time'
       cmpt(Array(MANY).fill(TORUS)), TORUS];
     const copies = files.map((file) => file.slice());
     const results = await Promise.all(files.map((file) => unpackAnywhere(file)));
+    assert.equal(answersOf().filter(({ file }) => file !== undefined).length, files.filter((file, i) => results[i] !== file).length);
     for (const [i, file] of files.entries()) {
       assert.deepEqual(results[i], await unpackTile(file), `file ${i}`);
       assert.deepEqual(file, copies[i], 'the file is as it was');
     }
   });
-  assert.ok(made.length > 0);
+});
+
+test('payloads of larger files are decoded on their own', async () => {
+  const { json, chunks } = readGlb(TORUS);
+  const large = writeGlb(json, [...chunks, { type: 0x4354584e, data: new Uint8Array(1 << 20) }]);
+  await unpacking(async (unpackAnywhere) => {
+    const count = answersOf().length;
+    assert.deepEqual(await unpackAnywhere(large), await unpackTile(large));
+    assert.equal(answersOf().length, count);
+  });
 });
 
 test('what is damaged is refused for the same reason, and nothing else is', async () => {
@@ -95,8 +108,15 @@ test('what is not ours stays as it is and is not sent; names may be spelt as JSO
 
 test('without a worker that starts, files are decoded all the same', async () => {
   await unpacking(async (unpackAnywhere) => {
-    for (const worker of made) worker.postMessage = () => setTimeout(() => worker.onerror({ message: 'it died' }));
+    let asked = 0;
+    for (const worker of made) {
+      worker.postMessage = () => {
+        ++asked;
+        setTimeout(() => worker.onerror({ message: 'it died' }));
+      };
+    }
     assert.deepEqual(await unpackAnywhere(TORUS), await unpackTile(TORUS));
+    assert.equal(asked, 1);
     const count = made.length;
     assert.deepEqual(await unpackAnywhere(TORUS), await unpackTile(TORUS));
     assert.equal(made.length, count, 'and no other worker is tried');
