@@ -111,6 +111,22 @@ test('modules that are none reject what is decoded with them', async () => {
   }
 });
 
+test('a whole decoder that cannot be loaded rejects what needs it, each time, and nothing else', async () => {
+  const coreUrl = new URL('../../lib/web/wasm/mcc_decoder_core.wasm', import.meta.url);
+  const whole = payloadOf(convert(readSample('torus'), ['--lossless']));
+  const made = [];
+  await withWorkers((worker) => made.push(worker), async () => {
+    const other = createDecoderPool({ workers: 1, coreUrl, wasmUrl: new URL('nowhere.wasm', import.meta.url) });
+    for (let i = 1; i <= 2; ++i) {
+      await assertRefused(other.decodePayload(whole), ['Load'], 'what needs more than the core');
+      assert.deepEqual(await settled(other.decodePayload(payload())), expected);
+      assert.equal(made[0].messages.filter(({ needsWhole }) => needsWhole).length, i, 'it is asked for again');
+    }
+    assert.equal(made.length, 1);
+    other.dispose();
+  });
+});
+
 test('a worker of a browser that fails settles its promise and is replaced', async () => {
   const made = [];
   await withWorkers((worker) => made.push(worker), async () => {

@@ -53,6 +53,25 @@ test('files of all kinds become what unpackTile() makes of them, many at a time'
   });
 });
 
+test('files are sent at once, to the worker that has the fewest', async () => {
+  const FILES = 12; // a multiple of the number of workers
+  const workers = Math.max(1, Math.min(4, (globalThis.navigator?.hardwareConcurrency ?? 4) - 1));
+  await unpacking(async (unpackAnywhere) => {
+    const sent = made.map(() => 0);
+    made.forEach((worker, i) => {
+      worker.postMessage = (...args) => {
+        ++sent[i];
+        Object.getPrototypeOf(worker).postMessage.apply(worker, args);
+      };
+    });
+    const all = Promise.all(Array(FILES).fill(TORUS).map((file) => unpackAnywhere(file)));
+    await new Promise(setImmediate);
+    assert.deepEqual(sent, Array(workers).fill(FILES / workers));
+    await all;
+    for (const worker of made) delete worker.postMessage;
+  });
+});
+
 test('payloads of larger files are decoded on their own', async () => {
   const { json, chunks } = readGlb(TORUS);
   const large = writeGlb(json, [...chunks, { type: 0x4354584e, data: new Uint8Array(1 << 20) }]);
