@@ -15,7 +15,7 @@ export const fileOf = (url) => (url.protocol === 'file:' ? importOfNode('fs/prom
 export async function workerOfNode(take) {
   const threads = await importOfNode('worker_threads');
   const worker = new threads.Worker(new URL('./worker.mjs', import.meta.url));
-  worker.on('message', (data) => take(data));
+  worker.on('message', take);
   for (const event of ['error', 'messageerror']) worker.on(event, (error) => take(undefined, error));
   worker.on('exit', () => take(undefined, { message: 'it has ended' }));
   return worker;

@@ -1,6 +1,6 @@
 // Copyright 2026 The gltf-mcc authors. SPDX-License-Identifier: Apache-2.0
 //
-// The worker that makes whole files without the extension, that of gltf-mcc/cesium: the same bytes as unpackTile(), the same errors.
+// The workers that make whole files without the extension, those of gltf-mcc/cesium: the same bytes as unpackTile(), the same errors.
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
 import { MccError, unpackGlb, unpackTile } from '../../lib/web/index.mjs';

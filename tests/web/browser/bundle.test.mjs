@@ -76,7 +76,7 @@ test('a bundle loads models, in workers, under a Content-Security-Policy', async
   assert.ok((await load('index')).workers > 0);
 });
 
-test('a bundle with gltf-mcc/cesium makes files without the extension in its own worker', async () => {
+test('a bundle with gltf-mcc/cesium makes files without the extension in a worker that can', async () => {
   const { page, violations } = await openPage(site.browser, `${site.server.origin}/bundle/tiles.html`, () => globalThis.isLoaded);
   const expected = await unpackGlb(convert(readSample('torus')));
   assert.deepEqual(await page.evaluate(() => globalThis.bytes), [...expected]);
