@@ -3,11 +3,13 @@
  * A library for LD_PRELOAD that lets one call of the system fail, as a disk that is full or broken
  * does. MCC_FAULT=KIND:NUMBER:ERROR: call NUMBER of a kind, counted from 1, fails with the number
  * ERROR. Kinds are open (of new files), write, fsync, close, rename and link; `short` stands for
- * writes that take one byte. Standard streams count only for `write`. When the fault happens, the
+ * writes that take one byte, and with `stop` a link is made, and the process stops itself
+ * before it goes on. Standard streams count only for `write`. When the fault happens, the
  * file that MCC_FAULT_HIT names is created. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -85,5 +87,8 @@ int rename(const char* from, const char* to) {
 
 int link(const char* from, const char* to) {
   REAL(int, "link", const char*, const char*)
-  return fails("link") ? -1 : real(from, to);
+  if (fails("link")) return -1;
+  const int failure = real(from, to);
+  if (failure == 0 && fails("stop")) kill(getpid(), SIGSTOP);
+  return failure;
 }

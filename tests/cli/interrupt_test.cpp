@@ -190,5 +190,33 @@ TEST_F(Interrupt, TemporaryFilesAreRemoved) {
   }
 }
 
+#ifdef MCC_FAULTS
+/// The signal comes while the files get their names together. They do so, also where the thread
+/// that is at it is the one that receives the signal.
+TEST_F(Interrupt, WhatHasBegunIsFinished) {
+  ASSERT_EQ(
+      runTool(folder_, "convert -q --fallback " + samplePath("torus.glb") + " out.glb").status, 0);
+  const std::set<std::string> finished = names();
+  for (const int signal_number : {SIGTERM, SIGUSR1, SIGSEGV, SIGPIPE}) {
+    for (const std::string& name : finished) fs::remove(path(name));
+    const std::string sample = std::string(MCC_SAMPLES_DIR) + "/torus.glb";
+    const pid_t child = start({"convert", sample, "out.glb", "--fallback"}, []() {
+      setenv("LD_PRELOAD", MCC_FAULTS, 1);
+      setenv("MCC_FAULT", "stop:1:0", 1);
+    });
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, WUNTRACED), child);
+    ASSERT_TRUE(WIFSTOPPED(status));
+    EXPECT_TRUE(hasTemporary());
+    kill(child, signal_number);
+    kill(child, SIGCONT);
+    EXPECT_EQ(signalOf(child, status), signal_number) << status;
+    std::set<std::string> left = names();
+    for (const std::string stream : {".stdout", ".stderr"}) left.insert(stream);
+    EXPECT_EQ(left, finished);
+  }
+}
+#endif
+
 }  // namespace
 }  // namespace mcc::test

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <system_error>
 #include <thread>
@@ -15,6 +16,10 @@ namespace {
 
 /// The thread that waits for signals.
 pthread_t waiting_thread;
+
+/// Whether a thread has stopped for ever, because it caused a signal.
+std::atomic<bool> has_stopped_thread{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler sets it
 
 /// Signals that end a program from outside. SIGKILL and SIGSTOP cannot be caught.
 constexpr int kEndings[] = {
@@ -34,13 +39,6 @@ constexpr int kEndings[] = {
 constexpr int kFaults[] = {SIGPIPE, SIGXFSZ, SIGSEGV, SIGBUS, SIGFPE,
                            SIGILL,  SIGABRT, SIGSYS,  SIGTRAP};
 
-bool isFault(int number) {
-  for (const int fault : kFaults) {
-    if (fault == number) return true;
-  }
-  return false;
-}
-
 /// Also false when a sanitizer or profiler handles the signal, or when the program was started with
 /// the signal ignored.
 bool hasDefaultAction(int number) {
@@ -54,16 +52,19 @@ void endBy(int signal_number) {
   sigset_t set;
   sigemptyset(&set);
   sigaddset(&set, signal_number);
-  ::kill(::getpid(), signal_number);
-  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);  // delivered here, since all others block it
+  ::raise(signal_number);  // to this thread, since another may take it too late
+  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
   ::_exit(128 + signal_number);
 }
 
-/// Runs on the thread that caused the signal. It passes the signal on to the waiting thread and
-/// stops here, because a signal handler may do no more.
-extern "C" void passOn(int number) {
+/// Runs on the thread that caused the signal, or on any if another process sent it. It passes the
+/// signal on to the waiting thread, because a signal handler may do no more. A thread that caused
+/// it stops here; any other continues, because it may hold the lock that the waiting thread needs.
+extern "C" void passOn(int number, siginfo_t* info, void* /*context*/) {
+  const bool is_sent = info->si_code == SI_USER && info->si_pid != ::getpid();
+  if (!is_sent) has_stopped_thread = true;
   pthread_kill(waiting_thread, number);
-  while (true) ::pause();
+  while (!is_sent) ::pause();
 }
 
 /// Waits for one of the signals, removes the temporary files, and ends the process by that signal.
@@ -72,9 +73,9 @@ void waitAndEnd(const sigset_t& set, gltf::TemporaryFiles& files) {
   int number = 0;
   while (sigwait(&set, &number) != 0) {
   }
-  // After a fault the thread may hold the lock for ever; after other signals it is released soon.
+  // A thread that has stopped may hold the lock for ever; all others release it soon.
   const gltf::TemporaryFiles::Lock held =
-      isFault(number) ? files.removeAllWithin(kPatience) : files.removeAll();
+      has_stopped_thread ? files.removeAllWithin(kPatience) : files.removeAll();
   endBy(number);
 }
 
@@ -109,7 +110,8 @@ void removeTemporariesOnSignals() {
     return;
   }
   struct sigaction action = {};
-  action.sa_handler = passOn;
+  action.sa_sigaction = passOn;
+  action.sa_flags = SA_SIGINFO | SA_RESTART;
   sigfillset(&action.sa_mask);
   for (const int number : kFaults) {
     if (sigismember(&all, number) == 1) sigaction(number, &action, nullptr);
