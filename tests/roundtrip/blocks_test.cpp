@@ -625,6 +625,35 @@ TEST(Blocks, InfoAddsUp) {
   }
 }
 
+/// Their boxes hardly overlap, whatever the order of the triangles.
+TEST(Blocks, AreCompact) {
+  const TestMesh mesh = shuffled(grid(60, 60), 1);
+  for (const MeshBits& bits : {MeshBits{}, kExactBits}) {
+    const MeshPiece piece(mesh, bits);
+    const PieceView view = piece.view();
+    EncodeResult result;
+    ASSERT_TRUE(encodeWith({&view, 1}, inBlocks(100), result).ok());
+    ASSERT_GT(result.block_count, 50u);
+    Payload payload;
+    ASSERT_TRUE(payload.open(result.payload).ok());
+    const auto areaOf = [](const float* low, const float* high) {
+      return (high[0] - low[0]) * (high[1] - low[1]);
+    };
+    float low[2] = {INFINITY, INFINITY};
+    float high[2] = {-INFINITY, -INFINITY};
+    float sum = 0;
+    for (const BlockInfo& block : payload.info().pieces[0].blocks) {
+      sum += areaOf(block.low, block.high);
+      for (size_t s = 0; s < 2; ++s) {
+        low[s] = std::min(low[s], block.low[s]);
+        high[s] = std::max(high[s], block.high[s]);
+      }
+    }
+    EXPECT_GT(areaOf(low, high), 0);
+    EXPECT_LT(sum, 1.5f * areaOf(low, high));
+  }
+}
+
 TEST(Blocks, SizesAddUpToThePayload) {
   for (const TestMesh& mesh : {torus(20, 14), withUnused(chartGrid(10, 10, 3), 1, 9),
                                book(5, 12, 3), withIndexDuplicates(icosphere(2), 1, 30)}) {
