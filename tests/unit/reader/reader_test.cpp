@@ -145,6 +145,32 @@ TEST(Reader, TargetsOfAnotherShape) {
   EXPECT_EQ(payload.decode({}).error, Error::kBadArgument);
 }
 
+/// Whichever target it is.
+TEST(Reader, TargetsThatLeadOutOfMemory) {
+  const std::vector<uint8_t> bytes = manyPieces(2);
+  Payload payload;
+  ASSERT_TRUE(payload.open(bytes).ok());
+  auto* const last_bytes = reinterpret_cast<uint8_t*>(UINTPTR_MAX - 8);
+  const auto expectRefused = [&](size_t piece, auto change) {
+    Targets targets(payload.info());
+    change(targets.attributes(piece), targets.parts(piece)[0]);
+    EXPECT_EQ(payload.decode(targets.refresh()).error, Error::kBadArgument) << piece;
+  };
+  using Attributes = std::vector<AttributeTarget>;
+  for (const size_t piece : {0, 1}) {
+    for (const size_t a : {0, 1}) {
+      expectRefused(piece, [&](Attributes& all, PartTarget&) { all[a].stride_bytes = SIZE_MAX; });
+      expectRefused(piece, [&](Attributes& all, PartTarget&) { all[a].data = last_bytes; });
+    }
+    expectRefused(piece, [&](Attributes&, PartTarget& part) { part.indices = last_bytes; });
+    for (const auto type : {0, 3, 8}) {
+      expectRefused(piece, [&](Attributes&, PartTarget& part) {
+        part.index_type = static_cast<IndexType>(type);
+      });
+    }
+  }
+}
+
 TEST(Reader, NarrowIndices) {
   const auto decode = [](uint32_t vertices, IndexType type) {
     const TestMesh mesh = bipyramid(vertices - 2);
