@@ -305,6 +305,22 @@ TEST(Json, TakesJsonAndNothingElse) {
   for (const std::string& text : bad) EXPECT_TRUE(reprinted(text).starts_with("error")) << text;
 }
 
+/// The first and the last of what each kind of escape stands for.
+TEST(Json, EscapesOfStringsAndKeys) {
+  for (const auto& [written, text] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"\\\"\\\\\\/\\b\\f\\n\\r\\t", "\"\\/\b\f\n\r\t"},
+           {"\\u0000", std::string(1, '\0')},
+           {"\\u20aC", "\xe2\x82\xac"},
+           {"\\ud7ff\\ue000", "\xed\x9f\xbf\xee\x80\x80"},
+           {"\\ud800\\udc00", "\xf0\x90\x80\x80"},
+           {"\\ud83d\\ude39", "\xf0\x9f\x98\xb9"},
+           {"\\uDBFF\\uDFFF", "\xf4\x8f\xbf\xbf"}}) {
+    EXPECT_EQ(Json::parse("\"" + written + "\"").get<std::string>(), text) << written;
+    const Json object = Json::parse("{\"" + written + "\":1}");
+    EXPECT_TRUE(object.contains(text)) << written;
+  }
+}
+
 /// What a text is made of does not depend on where its parts end.
 TEST(Json, PartsOfATextAreOneText) {
   const std::string text =
