@@ -2,9 +2,9 @@
 #include "positions/enc_mirrors.h"
 
 #include <algorithm>
-#include <array>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "base/enc_exceptions.h"
@@ -23,34 +23,65 @@ constexpr size_t kMostOnLine = 16;
 constexpr size_t kLeastShare = 10;
 constexpr size_t kLeastImages = 6;
 
-/// Sums as 64 bits, since those of a wide lattice may not fit in 32.
-struct Sum {
-  int64_t sum;
-  size_t votes;
+/// The sums of coordinates of pairs of points that agree on the other axes, and how often each
+/// occurs. Sums have 64 bits, since those of a wide lattice may not fit in 32.
+class Votes {
+ public:
+  Votes(const std::vector<Point>& points, uint32_t axis);
+
+  /// Returns the sums with most votes, most frequent first.
+  std::vector<int64_t> mostFrequent() const;
+
+  /// Returns how many points may have another one at most a step from their image: each that has
+  /// is one of two with a vote, or on a line that has none because it has too many points.
+  size_t mostImages(int64_t sum) const {
+    size_t count = on_crowded_lines_;
+    for (const int64_t off : {-1, 0, 1}) {
+      const auto votes = votes_.find(sum + off);
+      count += votes == votes_.end() ? 0 : 2 * votes->second;
+    }
+    return count;
+  }
+
+ private:
+  std::unordered_map<int64_t, size_t> votes_;
+  size_t on_crowded_lines_ = 0;
 };
 
-/// Returns the sums of pairs of coordinates that agree on the other axes, most frequent first.
-std::vector<Sum> voteForSums(const std::vector<Point>& points, uint32_t axis) {
-  std::unordered_map<Point, std::vector<int32_t>, PointHash> lines;
-  for (Point p : points) {
-    const int32_t x = p[axis];
-    p[axis] = 0;
-    lines[p].push_back(x);
-  }
-  std::unordered_map<int64_t, size_t> votes;
-  for (const auto& [line, on] : lines) {
-    for (size_t i = 0; i < on.size() && on.size() <= kMostOnLine; ++i) {
-      for (size_t k = 0; k < i; ++k) ++votes[int64_t{on[i]} + on[k]];
-    }
-  }
-  std::vector<Sum> sums;
-  for (const auto& [sum, count] : votes) sums.push_back({sum, count});
-  const auto before = [](const Sum& a, const Sum& b) {
-    return a.votes != b.votes ? a.votes > b.votes : a.sum < b.sum;
+Votes::Votes(const std::vector<Point>& points, uint32_t axis) {
+  struct OnLine {
+    uint64_t line;  ///< the coordinates on the other axes
+    int64_t at;
   };
-  const size_t kept = std::min(sums.size(), kTriedSums);
-  std::partial_sort(sums.begin(), sums.begin() + static_cast<ptrdiff_t>(kept), sums.end(), before);
-  sums.resize(kept);
+  std::vector<OnLine> sorted;
+  sorted.reserve(points.size());
+  for (const Point& p : points) {
+    const uint64_t high = static_cast<uint32_t>(p[(axis + 1) % 3]);
+    sorted.push_back({high << 32 | static_cast<uint32_t>(p[(axis + 2) % 3]), p[axis]});
+  }
+  std::sort(sorted.begin(), sorted.end(),
+            [](const OnLine& a, const OnLine& b) { return a.line < b.line; });
+  for (auto begin = sorted.begin(); begin != sorted.end();) {
+    auto end = begin;
+    while (end != sorted.end() && end->line == begin->line) ++end;
+    const size_t count = static_cast<size_t>(end - begin);
+    if (count > kMostOnLine) on_crowded_lines_ += count;
+    for (auto a = begin; a != end && count <= kMostOnLine; ++a) {
+      for (auto b = begin; b != a; ++b) ++votes_[a->at + b->at];
+    }
+    begin = end;
+  }
+}
+
+std::vector<int64_t> Votes::mostFrequent() const {
+  std::vector<std::pair<int64_t, size_t>> all(votes_.begin(), votes_.end());
+  const size_t kept = std::min(all.size(), kTriedSums);
+  std::partial_sort(all.begin(), all.begin() + static_cast<ptrdiff_t>(kept), all.end(),
+                    [](const auto& a, const auto& b) {
+                      return a.second != b.second ? a.second > b.second : a.first < b.first;
+                    });
+  std::vector<int64_t> sums;
+  for (size_t i = 0; i < kept; ++i) sums.push_back(all[i].first);
   return sums;
 }
 
@@ -77,24 +108,27 @@ size_t countImages(const std::vector<Point>& points, const Points& all, uint32_t
 Mirrors findMirrors(std::span<const int32_t> positions, uint32_t sum_bits) {
   std::vector<Point> points(positions.size() / 3);
   for (size_t v = 0; v < points.size(); ++v) std::copy_n(&positions[3 * v], 3, points[v].data());
-  const Points all(points.begin(), points.end());
+  Points all;  // only if it is needed
   struct Found {
     Mirror mirror;
     size_t images;
   };
   std::vector<Found> found;
+  const size_t least = std::max(kLeastImages, points.size() / kLeastShare);
   for (uint32_t axis = 0; axis < 3; ++axis) {
     const size_t first = found.size();
-    for (const Sum& tried : voteForSums(points, axis)) {
+    const Votes votes(points, axis);
+    for (const int64_t sum : votes.mostFrequent()) {
       const int64_t limit = int64_t{1} << (sum_bits - 1);
-      if (tried.sum < -limit || tried.sum >= limit) continue;
-      const size_t images = countImages(points, all, axis, tried.sum);
-      if (images < std::max(kLeastImages, points.size() / kLeastShare)) continue;
+      if (sum < -limit || sum >= limit || votes.mostImages(sum) < least) continue;
+      if (all.empty()) all.insert(points.begin(), points.end());
+      const size_t images = countImages(points, all, axis, sum);
+      if (images < least) continue;
       // Mirrors a step apart have about the same images.
       const auto near =
           std::find_if(found.begin() + static_cast<ptrdiff_t>(first), found.end(),
-                       [&](const Found& f) { return std::abs(f.mirror.sum - tried.sum) <= 2; });
-      const Found one{{axis, static_cast<int32_t>(tried.sum)}, images};
+                       [&](const Found& f) { return std::abs(f.mirror.sum - sum) <= 2; });
+      const Found one{{axis, static_cast<int32_t>(sum)}, images};
       if (near == found.end()) {
         found.push_back(one);
       } else if (images > near->images) {

@@ -14,7 +14,7 @@ namespace mcc {
 
 /// Returns the mirrors across an axis that have images of most positions (3 coordinates each), with
 /// at least a tenth of all. `sum_bits` is how many bits a sum may have, with its sign.
-/// The time is linear in the number of positions.
+/// The time is that of sorting the positions.
 Mirrors findMirrors(std::span<const int32_t> positions, uint32_t sum_bits);
 
 /// Finds about the mates that the positions will have when they are coded with these mirrors: those

@@ -363,6 +363,37 @@ TEST(FindMirrors, EveryPlaneOfASymmetricBoxIsFound) {
   }
 }
 
+TEST(FindMirrors, ImagesAStepAwayCount) {
+  // Pairs with each of three sums are 3 % of the points; those of all are nearly a fifth.
+  Random random(7);
+  std::vector<int32_t> points = symmetric(2, 820, 1 << 14, {});
+  for (int32_t i = 0; i < 90; ++i) {
+    const int32_t x = static_cast<int32_t>(random.below(4000));
+    const int32_t y = static_cast<int32_t>(random.below(1 << 14));
+    points.insert(points.end(), {x, y, i, 9000 + i % 3 - x, y, i});
+  }
+  const Mirrors found = findMirrors(points, 16);
+  ASSERT_EQ(found.count, 1u);
+  EXPECT_EQ(found.mirror[0].sum, 9001);
+}
+
+TEST(FindMirrors, ImagesOnCrowdedLinesCount) {
+  // Lines of 20 points do not vote, but nearly all images are on them.
+  Random random(8);
+  std::vector<int32_t> points;
+  for (int32_t line = 0; line < 40; ++line) {
+    const int32_t pairs = line < 30 ? 10 : 1;
+    const int32_t y = static_cast<int32_t>(random.below(1 << 14));
+    for (int32_t i = 0; i < pairs; ++i) {
+      const int32_t x = 100 * i + static_cast<int32_t>(random.below(90));
+      points.insert(points.end(), {x, y, line, 9000 - x, y, line});
+    }
+  }
+  const Mirrors found = findMirrors(points, 16);
+  ASSERT_EQ(found.count, 1u);
+  EXPECT_EQ(found.mirror[0].sum, 9000);
+}
+
 TEST(FindMirrors, RandomPointsHaveNone) {
   EXPECT_EQ(findMirrors(symmetric(1, 2000, 1 << 14, {}), 16).count, 0u);
   EXPECT_EQ(findMirrors({}, 16).count, 0u);
