@@ -108,7 +108,7 @@ size_t countImages(const std::vector<Point>& points, const Points& all, uint32_t
 Mirrors findMirrors(std::span<const int32_t> positions, uint32_t sum_bits) {
   std::vector<Point> points(positions.size() / 3);
   for (size_t v = 0; v < points.size(); ++v) std::copy_n(&positions[3 * v], 3, points[v].data());
-  Points all;  // only if it is needed
+  Points all;  // empty until a sum may have enough images: most scans have none
   struct Found {
     Mirror mirror;
     size_t images;
