@@ -3,7 +3,7 @@
 // Loads a GLB and shows what is in it before all of it is there.
 import { MccError, requireArgument } from './error.mjs';
 import { blocksIn } from './glb_blocks.mjs';
-import { decodeBlocksAnywhere } from './threads.mjs';
+import { decodeBlocksAnywhere, expectBlocks, preloadBlocks } from './threads.mjs';
 
 /**
  * Loads a GLB, see load_glb.d.mts.
@@ -18,12 +18,17 @@ export async function loadGlb(source, options) {
     requireArgument(call === undefined || typeof call === 'function', `${name} must be a function`);
   }
   signal?.throwIfAborted();
+  const isAnywhere = (onPreview ?? onBlock) !== undefined && decodeBlocks === decodeBlocksAnywhere;
+  if (isAnywhere) preloadBlocks();
   const isPlace = typeof source === 'string' || source instanceof URL;
   const kept = new KeptSource(isPlace ? await bodyOf(source, signal) : source, signal);
   try {
     const wanted = { onDocument, wantsPreviews: onPreview !== undefined, wantsBlocks: onBlock !== undefined };
     if ([onDocument, onPreview, onBlock].some((call) => call !== undefined)) {
-      for await (const block of blocksIn(kept, { ...others, signal, decodeBlocks }, wanted)) (block.isPreview ? onPreview : onBlock)(block);
+      for await (const block of blocksIn(kept, { ...others, signal, decodeBlocks }, wanted)) {
+        (block.isPreview ? onPreview : onBlock)(block);
+        if (block.isPreview && isAnywhere) expectBlocks(); // what has a preview is large
+      }
     }
     return await kept.all();
   } finally {

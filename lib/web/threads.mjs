@@ -8,6 +8,7 @@ import { decodePayload, prepareHere } from './decode.mjs';
 import { asMccError } from './error.mjs';
 import { expectedBytes, pace } from './pace.mjs';
 import { createPool } from './pool.mjs';
+import { pageSource } from './source.mjs';
 import { LONGEST_TASK_MS, ShortTasks } from './tasks.mjs';
 
 let pool;
@@ -29,6 +30,15 @@ export async function preload() {
   await Promise.all([prepareHere().catch(() => {}), hasWorkers && pagePool().prepare()]);
 }
 
+/** Loads what decodeBlocksAnywhere() needs as well, which is too late when the first payload is there. */
+export function preloadBlocks() {
+  preload();
+  rarelyNeeded().catch(() => {});
+}
+
+/** Loads the whole decoder, which payloads in blocks need. */
+export const expectBlocks = () => pageSource().whole().catch(() => {});
+
 /**
  * Decodes a payload where that is done soonest without holding up the page. Where there are no workers (Node), or they cannot start (in a
  * page that forbids them, or if this module comes from another origin), that is this thread.
@@ -37,6 +47,7 @@ export async function preload() {
 export async function decodeAnywhere(payload, { onBlock, ...others } = {}) {
   const options = onBlock === undefined ? others : { ...others, onBlock: once(onBlock) };
   const isInBlocks = claimsBlocks(payload);
+  if (isInBlocks) expectBlocks();
   const ms = pace.predict(expectedBytes(payload, options.claims));
   if (hasWorkers && (isInBlocks || !isForThisThread(ms))) {
     try {

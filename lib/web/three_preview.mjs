@@ -5,6 +5,7 @@ import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, LoaderUtils, 
   from 'three';
 import { MccError } from './error.mjs';
 import { factorsOf, loadShown, vectorOf } from './shown.mjs';
+import { preloadBlocks } from './threads.mjs';
 import { geometriesOf } from './three_blocks.mjs';
 
 const THREE = { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 };
@@ -18,6 +19,7 @@ const THREE = { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 };
  */
 export async function loadWithPreview(loader, url, { onPreview, onBlock, signal, decodeBlocks, limits } = {}) {
   const { manager } = loader;
+  if (decodeBlocks === undefined) preloadBlocks();
   manager.itemStart(url);
   try {
     return await loadShown(await bodyOf(loader, url, signal), { onPreview, onBlock, signal, decodeBlocks, limits }, (json) => new Engine(json),

@@ -22,10 +22,12 @@ async function beginLoad(engine, change = () => {}) {
   const rest = new Promise((resolve) => { release = () => resolve(glb.subarray(end)); });
   site.server.files.set('preview.glb', { body: glb.subarray(0, end), rest, headers: { 'Content-Type': 'model/gltf-binary', 'Cache-Control': 'no-store' } });
   const { page, violations } = await openPage(site.browser, `${site.server.origin}/pages/${engine}.html`, () => globalThis.begin !== undefined);
+  const requests = [];
+  page.on('request', (request) => requests.push(new URL(request.url()).pathname));
   await page.evaluate(() => globalThis.begin('/files/preview.glb'));
   const until = (what) => page.waitForFunction(what, { timeout: 20_000 });
   const told = () => page.evaluate(() => ({ ...globalThis.state, left: globalThis.state.left(), geometries: globalThis.state.memory.geometries }));
-  return { page, violations, release, until, told };
+  return { page, violations, requests, release, until, told };
 }
 
 for (const engine of ['preview', 'preview_babylon']) {
@@ -45,6 +47,18 @@ for (const engine of ['preview', 'preview_babylon']) {
     assert.equal(end.left, TRIANGLES, 'the model alone');
     assert.equal(end.geometries, 1, 'the GPU has nothing else');
     assert.deepEqual(violations(), []);
+    await page.close();
+  });
+
+  test(`${engine}: nothing waits for a script that could have been there`, async () => {
+    const { page, requests, release, until } = await beginLoad(engine);
+    const whole = page.waitForRequest(/mcc_decoder_simd\.wasm$/, { timeout: 20_000 });
+    await until(() => globalThis.state.previews.length > 0);
+    await whole; // the blocks are still on the server
+    const at = (end) => requests.findIndex((path) => path.endsWith(end));
+    assert.ok(at('/gluing.mjs') >= 0 && at('/gluing.mjs') < at('/preview.glb'), requests.join(' '));
+    release();
+    await until(() => globalThis.state.result !== undefined);
     await page.close();
   });
 
