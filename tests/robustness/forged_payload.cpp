@@ -6,6 +6,7 @@
 #include "container/enc_payload.h"
 #include "entropy/enc_coder.h"
 #include "format/predictors.h"
+#include "reader/starts.h"
 #include "robustness/answers_io.h"
 #include "robustness/observed_codes.h"
 #include "support/mesh_generators.h"
@@ -54,7 +55,8 @@ class ForgedAnswers final : public Answers {
     ++symbols_;
     if (!hasBudget() && last_token_ != nullptr)
       *last_token_ = 0;  // tokens with raw bits cost too much
-    return encoder_.raw(bits, static_cast<uint32_t>(random_.next() & ((uint64_t{1} << bits) - 1)));
+    const uint64_t most = bits == 2 ? 2 : (uint64_t{1} << bits) - 1;  // mirrors and axes end at 2
+    return encoder_.raw(bits, static_cast<uint32_t>(random_.next() % (most + 1)));
   }
 
  private:
@@ -144,10 +146,12 @@ struct Draft {
   PieceHeader header;
   std::vector<AttributeInfo> attributes;
   bool single = false;
+  bool is_trained = false;
 
   PayloadHeader payloadHeader() const {
     PayloadHeader payload{Allocator{}};
-    payload.flags = single ? payload_flag::kSingleCoder : 0;
+    if (single) payload.flags |= payload_flag::kSingleCoder;
+    if (is_trained) payload.flags |= payload_flag::kTrained;
     (void)payload.pieces.push_back(header);
     (void)payload.parts.push_back(PartInfo{static_cast<uint32_t>(header.triangleCount())});
     for (const AttributeInfo& a : attributes) (void)payload.attributes.push_back(a);
@@ -202,6 +206,10 @@ void drawFlags(Draft& draft, Random& random) {
   perhaps(10, piece_flag::kListed);
   perhaps(10, piece_flag::kIsolated);
   draft.single = random.chance(40);
+  draft.is_trained = random.chance(20);
+  if (draft.attributes.empty() || draft.attributes[0].predictor & position_mode::kPlanes) return;
+  perhaps(20, piece_flag::kMirrors);
+  perhaps(20, piece_flag::kAnchors);
 }
 
 class Forger {
@@ -301,6 +309,7 @@ class Forger {
   bool codeStages(Answers& answers) {
     AnswersIo io(answers);
     PayloadModels models;
+    if (draft_.is_trained && !startTrained(models, draft_.attributes.size() > 1, {})) return false;
     PieceHeader& h = draft_.header;
     PieceCoder<AnswersIo> piece(io, models, h, draft_.attributes, {});
     const PieceTruth nothing;
@@ -330,10 +339,11 @@ class Forger {
   void describe(ForgedPayload& forged) const {
     const PieceHeader& h = draft_.header;
     std::string& text = forged.description;
-    text = "flags " + std::to_string(h.flags) + ", " + std::to_string(h.operation_count) +
-           " operations, " + std::to_string(h.vertex_count) + " vertices, " +
-           std::to_string(h.face_count) + " faces, " + std::to_string(h.triangleCount()) +
-           " triangles, " + std::to_string(h.wedge_count) + " wedges";
+    text = (draft_.is_trained ? "trained, flags " : "flags ") + std::to_string(h.flags) + ", " +
+           std::to_string(h.operation_count) + " operations, " + std::to_string(h.vertex_count) +
+           " vertices, " + std::to_string(h.face_count) + " faces, " +
+           std::to_string(h.triangleCount()) + " triangles, " + std::to_string(h.wedge_count) +
+           " wedges";
     std::unordered_map<std::string, int> counts;
     std::vector<std::string> order;
     for (const AttributeInfo& a : draft_.attributes) {
