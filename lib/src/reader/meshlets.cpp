@@ -84,8 +84,7 @@ class Builder {
     const uint8_t* full = local + 3 * options_.max_triangles;
     const auto settle = [&]() {
       now_.vertex_count = last - first;
-      now_.triangle_count =
-          static_cast<uint32_t>(local - triangles - ptrdiff_t{now_.triangle_offset}) / 3;
+      now_.triangle_count = static_cast<uint32_t>(local - (triangles + now_.triangle_offset)) / 3;
     };
     for (; corners != end; corners += 3) {
       if (std::max({corners[0], corners[1], corners[2]}) >= vertex_count) return false;
