@@ -3,7 +3,7 @@
 // Loads a GLB and shows what is in it before all of it is there.
 import { MccError, requireArgument } from './error.mjs';
 import { blocksIn } from './glb_blocks.mjs';
-import { decodeBlocksAnywhere, expectBlocks, preloadBlocks } from './threads.mjs';
+import { decodeBlocksAnywhere, expectWhole, preloadBlocks } from './threads.mjs';
 
 /**
  * Loads a GLB, see load_glb.d.mts.
@@ -27,7 +27,7 @@ export async function loadGlb(source, options) {
     if ([onDocument, onPreview, onBlock].some((call) => call !== undefined)) {
       for await (const block of blocksIn(kept, { ...others, signal, decodeBlocks }, wanted)) {
         (block.isPreview ? onPreview : onBlock)(block);
-        if (block.isPreview && isAnywhere) expectBlocks(); // what has a preview is large
+        if (block.isPreview && isAnywhere) expectWhole(); // what has a preview is large
       }
     }
     return await kept.all();

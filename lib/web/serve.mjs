@@ -72,9 +72,10 @@ async function answer({ close, module, jobs }) {
 async function warmUp() {
   await decoder.prepare();
   const payload = warmUpPayload();
-  for (let i = 0; i < WARM_UPS && unansweredCount === 1; ++i) {
+  for (let i = 0; i < WARM_UPS; ++i) {
+    await nextTask(); // takes the messages that wait
+    if (unansweredCount > 1) return;
     await decoder.decode(payload);
-    await nextTask();
   }
 }
 

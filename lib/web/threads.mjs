@@ -36,8 +36,8 @@ export function preloadBlocks() {
   rarelyNeeded().catch(() => {});
 }
 
-/** Loads the whole decoder, which payloads in blocks need. */
-export const expectBlocks = () => pageSource().whole().catch(() => {});
+/** Loads the whole decoder, which payloads with blocks or tangents need. */
+export const expectWhole = () => pageSource().whole().catch(() => {});
 
 /**
  * Decodes a payload where that is done soonest without holding up the page. Where there are no workers (Node), or they cannot start (in a
@@ -47,7 +47,7 @@ export const expectBlocks = () => pageSource().whole().catch(() => {});
 export async function decodeAnywhere(payload, { onBlock, ...others } = {}) {
   const options = onBlock === undefined ? others : { ...others, onBlock: once(onBlock) };
   const isInBlocks = claimsBlocks(payload);
-  if (isInBlocks) expectBlocks();
+  if (isInBlocks) expectWhole();
   const ms = pace.predict(expectedBytes(payload, options.claims));
   if (hasWorkers && (isInBlocks || !isForThisThread(ms))) {
     try {

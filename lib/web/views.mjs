@@ -6,7 +6,11 @@
 import { asTrap } from './arguments.mjs';
 import { Budget, fetchAndDecode, MOST_AT_A_TIME } from './budget.mjs';
 import { elementsOf, listOf, originOf, payloadsOf } from './document.mjs';
-import { decodeAnywhere, preload } from './threads.mjs';
+import { decodeAnywhere, expectWhole, preload } from './threads.mjs';
+
+/** The semantic, A.2.4. */
+const TANGENT = 2;
+const hasTangents = ({ attributes }) => attributes.some(({ semantic }) => semantic === TANGENT);
 
 export class PayloadViews {
   #sources = new Map(); // by the number of an added buffer view
@@ -25,7 +29,10 @@ export class PayloadViews {
   constructor(json, fetchPayload, options, onBlock, onDecoded) {
     const { decode = decodeAnywhere, limits } = options ?? {};
     const payloads = payloadsOf(json);
-    if (decode === decodeAnywhere && payloads.length > 0) preload(); // before the payloads are there, if nobody did it earlier
+    if (decode === decodeAnywhere && payloads.length > 0) { // before the payloads are there
+      preload(); // if nobody did it earlier
+      if (payloads.some(({ claims }) => claims.some(hasTangents))) expectWhole();
+    }
     /**
      * The lists to use in place of the document's. Existing numbers stay; added buffer views come
      * last.

@@ -3,6 +3,7 @@
 // What pages load when, and on which thread they decode.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { readGlb } from '../../../lib/web/unpack.mjs';
 import { convert, readSample } from '../support/program.mjs';
 import { openPage } from './support/browser.mjs';
 import { useSite } from './support/site.mjs';
@@ -79,5 +80,21 @@ test('small payloads are decoded on the page\'s thread, large ones in a worker, 
   assert.deepEqual(decoded.small, { posted: undefined, found: 'decoded', same: true }, 'no worker is told');
   assert.deepEqual(decoded.large, { posted: 1, found: 'Document', same: true }, 'a worker refuses the counts');
   assert.deepEqual(violations(), []);
+  await page.close();
+});
+
+test('the whole decoder is requested when a document says that there are tangents, before their payload is there', async () => {
+  const { page, requests } = await open();
+  const read = (name) => page.evaluate(async (json) => {
+    const { PayloadViews } = await import('/lib/views.mjs');
+    new PayloadViews(json, () => new Promise(() => {})).begin(json);
+  }, readGlb(convert(readSample(name))).json);
+  const wholeRequests = () => requests.filter((path) => path.endsWith('/mcc_decoder_simd.wasm')).length;
+  await read('genus3');
+  await preload(page);
+  assert.equal(wholeRequests(), 0);
+  const whole = page.waitForRequest(/mcc_decoder_simd\.wasm$/);
+  await read('textured');
+  await whole;
   await page.close();
 });

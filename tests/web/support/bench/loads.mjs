@@ -42,11 +42,6 @@ const APPLICATIONS = {
   'meshopt-cz': { ...MESHOPT, files: 'meshopt-cz' },
   transform: { ...MESHOPT, files: 'transform' },
 };
-/** Of lib/web before the function above was there. */
-const OTHER = {
-  files: 'mcc', imports: "import { MeshCollapsePlugin } from 'gltf-mcc/three';",
-  setup: 'loader.register((parser) => new MeshCollapsePlugin(parser));',
-};
 export const CODECS = Object.keys(APPLICATIONS);
 
 /** What other tools make, by the name of the files. */
@@ -82,7 +77,7 @@ export async function makeSite(paths, work, codecs, other, say) {
   const add = async (path, bytes) => {
     contents.set(path, { body: await brotli(bytes), headers: { 'Content-Type': TYPES[extname(path)], 'Content-Encoding': 'br', 'Cache-Control': 'max-age=600' } });
   };
-  const applications = [...codecs.map((name) => [name, APPLICATIONS[name]]), ...(other === undefined ? [] : [['other', OTHER]])];
+  const applications = [...codecs.map((name) => [name, APPLICATIONS[name]]), ...(other === undefined ? [] : [['other', OURS]])];
   for (const [name, application] of applications) {
     const folder = join(work, name);
     mkdirSync(folder);
