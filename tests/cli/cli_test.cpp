@@ -195,6 +195,10 @@ TEST_F(Cli, InputMayBeOutput) {
   EXPECT_LT(fs::file_size(folder_ / "in.glb") * 3, sheet_.size());
   EXPECT_EQ(run("decode --in-place in.glb ./in.glb").status, 0);
   EXPECT_GT(fs::file_size(folder_ / "in.glb") * 2, sheet_.size());
+  EXPECT_EQ(run("convert --in-place in.glb").status, 0);
+  EXPECT_LT(fs::file_size(folder_ / "in.glb") * 3, sheet_.size());
+  EXPECT_EQ(run("decode --in-place -i in.glb").status, 0);
+  EXPECT_GT(fs::file_size(folder_ / "in.glb") * 2, sheet_.size());
 }
 
 TEST_F(Cli, OptionsAndFormats) {

@@ -82,7 +82,7 @@ void InOut::addOptions(Command& command) {
   command.add("FILES", "", &inputs, "IN and OUT");
   command.add("-i,--input", "FILE", &input, "Same as IN");
   command.add("-o,--output", "FILE|DIR", &output, "Same as OUT, or the folder for several IN");
-  command.addFlag("--in-place", may_replace_input, "Let OUT replace IN");
+  command.addFlag("--in-place", may_replace_input, "Let OUT replace IN; OUT may be left out");
 }
 
 void InOut::sort(const std::string& command) {
@@ -96,6 +96,7 @@ void InOut::sort(const std::string& command) {
     output = inputs.back();
     inputs.pop_back();
   }
+  if (output.empty() && inputs.size() == 1 && may_replace_input) output = inputs[0];
   if (inputs.empty() || output.empty()) {
     throw UsageError(command, inputs.empty() ? "IN is missing" : "OUT is missing");
   }
