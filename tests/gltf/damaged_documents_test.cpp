@@ -145,9 +145,9 @@ void tryChanges(std::span<const uint8_t> file, uint32_t count) {
   }
 }
 
-TEST(DamagedDocuments, Source) { tryChanges(document().toGlb(), 1500); }
+TEST(DamagedDocuments, Values) { tryChanges(document().toGlb(), 1500); }
 
-TEST(DamagedDocuments, Compressed) {
+TEST(DamagedCompressed, Values) {
   ConvertOptions options;
   options.allow_larger = true;
   std::vector<uint8_t> compressed;
@@ -158,7 +158,7 @@ TEST(DamagedDocuments, Compressed) {
 }
 
 /// What other codecs compressed, one mesh and the views of another.
-TEST(DamagedDocuments, Coded) {
+TEST(DamagedCoded, Values) {
   Builder builder;
   builder.addMesh({Sheet(6).addTo(builder)});
   builder.addMesh({Sheet(5).addTo(builder)});
