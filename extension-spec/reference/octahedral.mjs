@@ -86,8 +86,6 @@ export const pointOfValue = (C, value) => [value[0] - C, value[1] - C];
 export function turnedValue(C, value, turn) {
 	const from = pointOfValue(C, value), z = C - Math.abs(from[0]) - Math.abs(from[1]);
 	const image = turned(turn, [...(z < 0 ? turnOver(C, from) : from), z]);
-	const point = image[2] < 0 ? turnOver(C, image.slice(0, 2)) : image.slice(0, 2);
-	const isOnRim = point.some((c) => Math.abs(c) === C);
-	return gridPoint(C, isOnRim ? turnOver(C, turnOver(C, point)) : point);
+	return gridPoint(C, image[2] < 0 ? turnOver(C, image.slice(0, 2)) : image.slice(0, 2));
 }
 export const sumOf = (vectors) => vectors.reduce(add32);

@@ -134,8 +134,7 @@ TEST(Mates, ImagesOfGridPoints) {
   for (const uint8_t bits : {uint8_t{2}, uint8_t{3}, uint8_t{6}}) {
     const int32_t centre = octahedralCentre(bits);
     for (int32_t i = 0; i < (2 * centre + 1) * (2 * centre + 1); ++i) {
-      int32_t point[2] = {i % (2 * centre + 1), i / (2 * centre + 1)};
-      canonicalGridPoint(centre, point);
+      const int32_t point[2] = {i % (2 * centre + 1), i / (2 * centre + 1)};
       for (Turn turn = 0; turn < kTurnCount; ++turn) {
         int32_t image[2];
         turnGridPoint(centre, turn, point, image);

@@ -22,8 +22,12 @@ const area = (points, fill = DONE) =>
   `<polygon points="${points.map((p) => `${number(p[0])},${number(p[1])}`).join(' ')}" fill="${fill}"/>`;
 const box = (x, y, width, height, fill) =>
   `<rect x="${x}" y="${y}" width="${width}" height="${height}" fill="${fill}" stroke="${DARK}"/>`;
-const text = (p, string, size = 13, anchor = 'middle', colour = '#263238', weight = 'normal') =>
-  `<text x="${number(p[0])}" y="${number(p[1])}" fill="${colour}" font-size="${size}" font-weight="${weight}" text-anchor="${anchor}">${string}</text>`;
+const TEXT = { fill: '#263238', 'font-size': 12, 'text-anchor': 'middle' }; // unless an element has others
+const attributes = (named) => Object.entries(named).map(([name, value]) => ` ${name}="${value}"`).join('');
+const text = (p, string, size = 13, anchor = TEXT['text-anchor'], colour = TEXT.fill, weight) => {
+  const own = Object.entries({ fill: colour, 'font-size': size, 'font-weight': weight, 'text-anchor': anchor }).filter(([name, value]) => value !== TEXT[name]);
+  return `<text x="${number(p[0])}" y="${number(p[1])}"${attributes(Object.fromEntries(own))}>${string}</text>`;
+};
 
 /// Points of a regular polygon, counterclockwise from `degrees`.
 function ring(centre, radius, count, degrees = -90) {
@@ -52,7 +56,7 @@ function write(name, top, width, bottom, label, parts) {
   const marker = (id, colour) =>
     `<marker id="${id}" viewBox="0 0 10 10" refX="8" refY="5" markerWidth="7" markerHeight="7" orient="auto"><path d="M0 0L10 5L0 10z" fill="${colour}"/></marker>`;
   const svg = [
-    `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 ${top} ${width} ${bottom - top}" font-family="Helvetica, Arial, sans-serif" role="img" aria-label="${label}">`,
+    `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 ${top} ${width} ${bottom - top}" font-family="Helvetica, Arial, sans-serif"${attributes(TEXT)} role="img" aria-label="${label}">`,
     `<defs>${marker('a', DARK)}${marker('b', BLUE)}</defs>`,
     `<rect y="${top}" width="${width}" height="${bottom - top}" fill="#ffffff"/>`,
     ...joined(parts),

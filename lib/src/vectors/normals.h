@@ -215,7 +215,6 @@ inline void turnGridPoint(int32_t centre, Turn turn, const int32_t* value, int32
   for (uint32_t s = 0; s < 3; ++s) q[s] = (turn >> s & 1) != 0 ? -p[from[s]] : p[from[s]];
   if (q[2] < 0) OctahedralFrame::turnOver(q, centre);
   for (int s = 0; s < 2; ++s) to[s] = q[s] + centre;
-  canonicalGridPoint(centre, to);
 }
 
 /// Codes a grid point `value` in 0..2*centre; `point`: relative to the centre. `context`: up to
