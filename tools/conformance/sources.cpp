@@ -1531,6 +1531,47 @@ std::vector<Source> boundarySources() {
   return all;
 }
 
+std::vector<Source> readingSources() {
+  std::vector<Source> all;
+  all.push_back(anchorSources()[0]);
+  all.back().name = "mates_of_many";
+  all.back().shows = "vertices that are mates of several, and are mates of others";
+  all.back().options.variation = 23;
+  TestMesh two = jittered(grid(3, 3), 15, 0.2f);  // sheets, one above the other, that share vertex 7
+  const TestMesh above = translated(jittered(grid(3, 3), 42, 0.2f), 0, 0, 3);
+  const uint32_t count = two.vertexCount();
+  two.positions.insert(two.positions.end(), above.positions.begin(), above.positions.end());
+  for (const uint32_t v : above.indices) two.indices.push_back(v == 7 ? 7 : v + count);
+  all.push_back(single("touching", "components that touch earlier ones, with other anchors",
+                       repeated(two, 2, 5), [](SourceBuilder& b) { b.positions(9); }));
+  all.push_back(single(
+      "sums", "tangents of bundles whose first wedge has no chart, and of isolated wedges",
+      withTwoNormals(withUnused(withRandomWedges(torus(6, 4), 3, 3), 3, 12)), [](SourceBuilder& b) {
+        b.positions(8);
+        b.normals(4);
+        b.floats("TEXCOORD_0", kBase, "VEC2", 7,
+                 [](const Place& at, uint32_t c) { return at.wedge == 0 ? 0.5f : at.texcoord(c); });
+        b.tangents(4, false);
+      }));
+  all.push_back(single(
+      "colours", "models that start trained, but those of colours",
+      withRandomWedges(withSharedValues(jittered(torus(7, 5), 1, 0.05f), 1), 1, 3),
+      [](SourceBuilder& b) {
+        b.positions(8);
+        b.normals(5);
+        b.floats("COLOR_0", kBase, "VEC3", 4, [](const Place& at, uint32_t c) {
+          return std::floor(0.5f + at.position(c)) * 0.3f;
+        });
+      }));
+  for (Source& source : all) {
+    source.options.without = {};
+    if (&source != &all.back()) source.options.without.add(Feature::kStarts);
+    source.name = "readings_" + source.name;
+    source.shows = "What was once read in another way: " + source.shows;
+  }
+  return all;
+}
+
 std::vector<Source> chosenSources() {
   std::vector<Source> all;
   smallSources(all);

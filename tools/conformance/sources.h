@@ -34,6 +34,8 @@ std::vector<Source> anchorSources();
 std::vector<Source> trainedSources();
 /// Sources of version 1.1 that lie just beyond limits, and where rules meet that seldom do.
 std::vector<Source> boundarySources();
+/// Sources of version 1.1 for rules that somebody who wrote a decoder could read in two ways.
+std::vector<Source> readingSources();
 /// Sources of version 1.1, with normals and texture coordinates of mates.
 std::vector<Source> matesSources();
 

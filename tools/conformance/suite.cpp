@@ -298,6 +298,7 @@ Suite makeSuite() {
   addOfVersion11(anchorSources());
   addOfVersion11(trainedSources());
   addOfVersion11(boundarySources());
+  addOfVersion11(readingSources());
   numberNames(candidates);
   Suite suite;
   Json manifest = {{"extension", gltf::kExtensionName},

@@ -13,7 +13,7 @@ const NEW = '#bbdefb';
 
 const number = (x) => Number(x.toFixed(1));
 const line = (a, b, colour = GREY, width = 2, more = '') =>
-  `<path d="M${number(a[0])} ${number(a[1])}L${number(b[0])} ${number(b[1])}" stroke="${colour}" stroke-width="${width}"${more}/>`;
+  `<path d="M${number(a[0])} ${number(a[1])}L${number(b[0])} ${number(b[1])}" stroke="${colour}"${width === 1 ? '' : ` stroke-width="${width}"`}${more}/>`;
 const arrow = (a, b, colour = DARK) => line(a, b, colour, 2, ` marker-end="url(#${colour === BLUE ? 'b' : 'a'})"`);
 const dashed = (a, b, colour = GREY) => line(a, b, colour, 1.5, ' stroke-dasharray="5 4"');
 const dot = (p, colour = DARK, radius = 5) =>
@@ -58,7 +58,7 @@ function write(name, top, width, bottom, label, parts) {
   const svg = [
     `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 ${top} ${width} ${bottom - top}" font-family="Helvetica, Arial, sans-serif"${attributes(TEXT)} role="img" aria-label="${label}">`,
     `<defs>${marker('a', DARK)}${marker('b', BLUE)}</defs>`,
-    `<rect y="${top}" width="${width}" height="${bottom - top}" fill="#ffffff"/>`,
+    `<rect y="${top}" width="${width}" height="${bottom - top}" fill="#fff"/>`,
     ...joined(parts),
     '</svg>',
   ].join('\n');
@@ -150,7 +150,7 @@ function expand() {
 
   const spur = ring([735, 170], 62, 5);
   const tip = middle(spur[0], [735, 170], 0.72);
-  parts.push(area(ring([735, 170], 100, 5)), `<polygon points="${spur.map((p) => p.map(number).join(',')).join(' ')}" fill="#ffffff"/>`);
+  parts.push(area(ring([735, 170], 100, 5)), `<polygon points="${spur.map((p) => p.map(number).join(',')).join(' ')}" fill="#fff"/>`);
   parts.push(closed(spur, BLUE, 2.5), line(spur[0], tip, RED, 4));
   spur.forEach((p) => parts.push(dot(p)));
   parts.push(dot(tip, RED, 6), text([735, 318], 'spur, r = 0: the top gets', 12), text([735, 335], 'a second node', 12), text([tip[0] + 12, tip[1] + 16], 'v', 13, 'middle', '#c62828', 'bold'));
@@ -168,7 +168,7 @@ function joins() {
   const far = ring([130, 150], 105, 7, -64);
   parts.push(area(far));
   hole.forEach((p, i) => parts.push(line(p, far[i], '#cfd8dc', 1.5), line(p, far[(i + 6) % 7], '#cfd8dc', 1.5)));
-  parts.push(area(hole, '#ffffff'), closed(hole, DARK, 2.5));
+  parts.push(area(hole, '#fff'), closed(hole, DARK, 2.5));
   hole.forEach((p) => parts.push(dashed(p, [130, 150], ORANGE), dot(p)));
   parts.push(dot([130, 150], ORANGE, 7), text([130, 286], 'hole: a dummy closes it,', 12), text([130, 303], 'its triangles are not emitted', 12));
 
@@ -207,14 +207,14 @@ function fan() {
         const corners = [a, b, c];
         if (corners.some(([y, x]) => grid[y] === undefined || grid[y][x] === undefined)) continue;
         const points = corners.map(([y, x]) => grid[y][x]);
-        parts.push(area(points, corners.every(([y, x]) => known(y, x)) ? DONE : '#ffffff'), closed(points, GREY, 1.5));
+        parts.push(area(points, corners.every(([y, x]) => known(y, x)) ? DONE : '#fff'), closed(points, GREY, 1.5));
       }
     }
   }
   grid.forEach((row, r) => row.forEach((p, i) => parts.push(dot(p, known(r, i) ? DARK : '#cfd8dc'))));
   const scores = [[2, 2, '2', RED], [2, 3, '1', ORANGE], [2, 4, '1', ORANGE], [2, 5, '1', ORANGE], [3, 0, '1', ORANGE]];
   for (const [r, i, score, colour] of scores) {
-    parts.push(dot(grid[r][i], colour, 9), text([grid[r][i][0], grid[r][i][1] + 4], score, 12, 'middle', '#ffffff', 'bold'));
+    parts.push(dot(grid[r][i], colour, 9), text([grid[r][i][0], grid[r][i][1] + 4], score, 12, 'middle', '#fff', 'bold'));
   }
   parts.push(text([205, 292], 'Known vertices are dark. A score is the number of', 12), text([205, 309], 'faces with two known corners, 3 at most; the highest', 12));
   parts.push(text([205, 326], 'one comes next.', 12));
