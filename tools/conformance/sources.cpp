@@ -1567,7 +1567,7 @@ std::vector<Source> readingSources() {
     source.options.without = {};
     if (&source != &all.back()) source.options.without.add(Feature::kStarts);
     source.name = "readings_" + source.name;
-    source.shows = "What was once read in another way: " + source.shows;
+    source.shows = "Rules that are easily misread: " + source.shows;
   }
   return all;
 }
