@@ -29,9 +29,10 @@ export class PayloadViews {
   constructor(json, fetchPayload, options, onBlock, onDecoded) {
     const { decode = decodeAnywhere, limits } = options ?? {};
     const payloads = payloadsOf(json);
-    if (decode === decodeAnywhere && payloads.length > 0) { // before the payloads are there
+    const claims = payloads.flatMap((payload) => payload.claims);
+    if (decode === decodeAnywhere && claims.length > 0) { // before the payloads are there
       preload(); // if nobody did it earlier
-      if (payloads.some(({ claims }) => claims.some(hasTangents))) expectWhole();
+      if (claims.some(hasTangents)) expectWhole();
     }
     /**
      * The lists to use in place of the document's. Existing numbers stay; added buffer views come
