@@ -274,6 +274,21 @@ TEST(Faults, OfViews) {
   EXPECT_EQ(issuesOf(d.builder.toGlb()).size(), 3u);
 }
 
+/// Where the only view lies outside of its buffer, there are no bytes to keep, and the buffer that
+/// the view names is still there.
+TEST(Faults, OfTheOnlyView) {
+  const std::string json =
+      R"({"asset":{"version":"2.0"},"images":[{"bufferView":0,"mimeType":"image/png"}],)"
+      R"("bufferViews":[{"buffer":0,"byteOffset":65535,"byteLength":4}],)"
+      R"("buffers":[{"byteLength":4,"uri":"data:;base64,AAAAAA=="}]})";
+  ConvertReport report;
+  std::vector<uint8_t> output;
+  ASSERT_EQ(convertGlb(asBytes(json), {}, output, report).message(), "");
+  EXPECT_TRUE(hasNote(report, "bytes 65535 to 65539 are outside buffer 0 of 4 bytes"));
+  EXPECT_EQ(jsonOf(output)["bufferViews"][0]["byteLength"], 0);
+  EXPECT_EQ(jsonOf(output)["buffers"][0]["byteLength"], 0);
+}
+
 /// What is wrong with one accessor is an error of the file, which validate() reports at its place.
 TEST(Faults, AreErrorsForValidate) {
   TwoMeshes d;

@@ -251,6 +251,7 @@ class LayoutBuilder {
         const uint64_t offset = moved(buffer, begin);
         const uint64_t length = end == begin ? 0 : moved(buffer, end - 1) + 1 - offset;
         setRange(placeOf(json, coding), offset, length);
+        names_first_ = true;
       }
       if (!coding.extension.empty()) setPlaceholder(json, coding);
     }
@@ -270,8 +271,8 @@ class LayoutBuilder {
     // What codes views is required, since their bytes exist nowhere else.
     for (const char* name : kViewExtensions)
       listExtension(json_, name, coded_extensions_.contains(name));
-    const bool has_bytes = layout_.byte_count != 0;
-    if (has_bytes || !coded_extensions_.empty()) buffers.push_back(firstBuffer(old_buffers));
+    const bool has_first = layout_.byte_count != 0 || names_first_ || !coded_extensions_.empty();
+    if (has_first) buffers.push_back(firstBuffer(old_buffers));
     if (!coded_extensions_.empty()) {
       Json placeholder = {{"byteLength", placeholder_bytes_}};
       for (const std::string& name : coded_extensions_) {
@@ -337,6 +338,7 @@ class LayoutBuilder {
   std::vector<uint32_t> numbers_;        ///< final numbers of old and new views
   std::vector<uint32_t> missing_views_;  ///< old views that are kept without bytes
   uint32_t view_count_ = 0;
+  bool names_first_ = false;  ///< whether a kept view names the first buffer, maybe without bytes
   uint64_t placeholder_bytes_ = 0;          ///< size of the buffer that coded views claim to be in
   std::set<std::string> coded_extensions_;  ///< extensions of the views that are still coded
 };
