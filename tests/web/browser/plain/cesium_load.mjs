@@ -2,7 +2,7 @@
 //
 // Loads a tileset (3D Tiles) and says how long it took; for tools/bench-tiles.
 globalThis.CESIUM_BASE_URL = '/engines/cesium/Build/Cesium/'; // wanted when the module is loaded
-const { Cesium3DTileset, Color, DirectionalLight, Cartesian3, HeadingPitchRange, Scene } = await import('/engines/cesium/Build/Cesium/index.js');
+const { Cesium3DTileset, Color, DirectionalLight, Cartesian3, HeadingPitchRange, Resource, Scene } = await import('/engines/cesium/Build/Cesium/index.js');
 
 const FRAME_MS = 10;
 const canvas = document.querySelector('canvas');
@@ -18,6 +18,8 @@ scene.light = new DirectionalLight({ direction: new Cartesian3(-3, -1, -2), inte
  */
 globalThis.load = async (url, distance) => {
   for (let i = 0; i < 10; ++i) await nextFrame(); // compiles what does not depend on tiles
+  // CesiumJS asks this before its first texture: it reads a pixel, which waits for all that was drawn before, seconds without a graphics card.
+  await Resource.supportsImageBitmapOptions();
   const begin = performance.now();
   // Hidden: without a graphics card shaders and drawing take seconds, which say nothing about loading.
   const tileset = await Cesium3DTileset.fromUrl(url, { maximumScreenSpaceError: 8, show: false, preloadWhenHidden: true });
