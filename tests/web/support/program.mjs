@@ -7,11 +7,13 @@ import os from 'node:os';
 import path from 'node:path';
 import { ROOT, SAMPLES } from './paths.mjs';
 
-export const PROGRAM = process.env.MCC_PROGRAM ?? path.join(ROOT, 'build/release/tools/gltf-mcc');
+export const programOf = (tree) => path.join(tree, 'build/release/tools/gltf-mcc');
+export const PROGRAM = process.env.MCC_PROGRAM ?? programOf(ROOT);
 
 export const readSample = (name) => new Uint8Array(readFileSync(path.join(SAMPLES, `${name}.glb`)));
 
-export const convert = (glb, options = []) => inMemory(['convert', '--compare', 'none', ...options], glb);
+/** @param {string} [program] another than PROGRAM */
+export const convert = (glb, options = [], program = PROGRAM) => inMemory(['convert', '--compare', 'none', ...options], glb, program);
 export const decode = (glb) => inMemory(['decode'], glb);
 
 /** A sample with its fallback, whose buffer is a file of its own: { glb, fallback, fallbackName }. */
@@ -28,11 +30,11 @@ export function convertWithFallback(name) {
 }
 
 // In memory of its own, as loaders like it.
-const inMemory = (args, glb) => new Uint8Array(run([...args, '-', '-'], glb));
+const inMemory = (args, glb, program) => new Uint8Array(run([...args, '-', '-'], glb, program));
 
-function run([command, ...args], input) {
-  if (!existsSync(PROGRAM)) {
-    throw new Error(`${PROGRAM} is missing: tools/build release gltf-mcc, or name the program in MCC_PROGRAM`);
+function run([command, ...args], input, program = PROGRAM) {
+  if (!existsSync(program)) {
+    throw new Error(`${program} is missing: tools/build release gltf-mcc, or name the program in MCC_PROGRAM`);
   }
-  return execFileSync(PROGRAM, [command, '--quiet', ...args], { input, maxBuffer: 1 << 28 });
+  return execFileSync(program, [command, '--quiet', ...args], { input, maxBuffer: 1 << 28 });
 }

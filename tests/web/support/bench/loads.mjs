@@ -10,7 +10,7 @@ import { startLink } from '../bench_tiles/link.mjs';
 import { median } from '../bench_tiles/runs.mjs';
 import { bundle } from '../bundle.mjs';
 import { ENGINES } from '../paths.mjs';
-import { convert } from '../program.mjs';
+import { convert, programOf } from '../program.mjs';
 import { brotli } from './encode.mjs';
 import { wholeFiles } from './whole_files.mjs';
 
@@ -46,8 +46,12 @@ export const CODECS = Object.keys(APPLICATIONS);
 
 /** What other tools make, by the name of the files. */
 const TOOLS = { draco: 'transform draco 5', meshopt: 'gltfpack -cc', 'meshopt-cz': 'gltfpack -cz', transform: 'transform meshopt' };
-/** What ours makes. */
-const OPTIONS = { mcc: [], preview: ['--preview'] };
+/** What our programs make of a GLB; `other` is a working tree. */
+const MAKERS = {
+  mcc: (glb) => convert(glb),
+  preview: (glb) => convert(glb, ['--preview']),
+  other: (glb, other) => convert(glb, [], programOf(other)),
+};
 
 const scriptOf = ({ imports, setup, load = 'loader.loadAsync(url)' }) => `
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
@@ -69,7 +73,7 @@ globalThis.load = async (urls) => {
  * @param {string[]} paths of GLBs
  * @param {string} work a folder to build applications in
  * @param {string[]} codecs of CODECS
- * @param {string} [other] another lib/web, to measure beside this one as `other`
+ * @param {string} [other] another working tree, to measure beside this one as `other`: its lib/web with what its program makes
  * @returns {Promise<{ contents: Map<string, object>, codecs: Map<string, string> }>} codecs: which files each application loads
  */
 export async function makeSite(paths, work, codecs, other, say) {
@@ -77,12 +81,12 @@ export async function makeSite(paths, work, codecs, other, say) {
   const add = async (path, bytes) => {
     contents.set(path, { body: await brotli(bytes), headers: { 'Content-Type': TYPES[extname(path)], 'Content-Encoding': 'br', 'Cache-Control': 'max-age=600' } });
   };
-  const applications = [...codecs.map((name) => [name, APPLICATIONS[name]]), ...(other === undefined ? [] : [['other', OURS]])];
+  const applications = [...codecs.map((name) => [name, APPLICATIONS[name]]), ...(other === undefined ? [] : [['other', { ...OURS, files: 'other' }]])];
   for (const [name, application] of applications) {
     const folder = join(work, name);
     mkdirSync(folder);
     await bundle(folder, { 'index.html': '<!doctype html><link rel="icon" href="data:,"><script type="module" src="./main.js"></script>', 'main.js': scriptOf(application) },
-      { base: `/${name}/`, library: name === 'other' ? other : undefined });
+      { base: `/${name}/`, library: name === 'other' ? join(other, 'lib/web') : undefined });
     const output = join(folder, 'dist');
     for (const file of readdirSync(output, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile())) {
       const full = join(file.parentPath ?? file.path, file.name);
@@ -96,7 +100,7 @@ export async function makeSite(paths, work, codecs, other, say) {
     const kinds = new Set(applications.map(([, { files }]) => files));
     const theirs = await wholeFiles(path, Object.keys(TOOLS).filter((kind) => kinds.has(kind)).map((kind) => TOOLS[kind]));
     for (const kind of kinds) {
-      await add(`/models/${kind}/${basename(path)}`, theirs.get(TOOLS[kind]) ?? (kind in OPTIONS ? convert(source, OPTIONS[kind]) : source));
+      await add(`/models/${kind}/${basename(path)}`, theirs.get(TOOLS[kind]) ?? MAKERS[kind]?.(source, other) ?? source);
     }
   }
   return { contents, codecs: new Map(applications.map(([name, { files }]) => [name, files])) };
