@@ -25,7 +25,7 @@ async function beginLoad(engine, change = () => {}) {
   const requests = [];
   page.on('request', (request) => requests.push(new URL(request.url()).pathname));
   await page.evaluate(() => globalThis.begin('/files/preview.glb'));
-  const until = (what) => page.waitForFunction(what, { timeout: 20_000 });
+  const until = (what) => page.waitForFunction(what);
   const told = () => page.evaluate(() => ({ ...globalThis.state, left: globalThis.state.left(), geometries: globalThis.state.memory.geometries }));
   return { page, violations, requests, release, until, told };
 }
@@ -52,7 +52,7 @@ for (const engine of ['preview', 'preview_babylon']) {
 
   test(`${engine}: nothing waits for a script that could have been there`, async () => {
     const { page, requests, release, until } = await beginLoad(engine);
-    const whole = page.waitForRequest(/mcc_decoder_simd\.wasm$/, { timeout: 20_000 });
+    const whole = page.waitForRequest(/mcc_decoder_simd\.wasm$/);
     await until(() => globalThis.state.previews.length > 0);
     await whole; // the blocks are still on the server
     const at = (end) => requests.findIndex((path) => path.endsWith(end));

@@ -25,7 +25,7 @@ test('preload() loads the core and starts one worker, before there is a file', a
   await preload(page);
   assert.deepEqual(requests.filter((path) => path.endsWith('.wasm')), ['/lib/wasm/mcc_decoder_core_simd.wasm']);
   // The browser may tell of a worker later than the page knows it.
-  for (let waited = 0; page.workers().length === 0 && waited < 10_000; waited += 20) await new Promise((resolve) => { setTimeout(resolve, 20); });
+  if (page.workers().length === 0) await page.waitForEvent('worker');
   assert.equal(page.workers().length, 1);
   assert.deepEqual(violations(), []);
   await page.close();

@@ -113,7 +113,7 @@ const stemOf = (tile) => tile.replace(/\.[^.]+$/, '');
 /** What a pixel picks, as text: the tile without the kind of its file, the id, and all properties. */
 const textOf = (pick) => (pick === null ? 'nothing' : JSON.stringify([stemOf(pick.tile), pick.id, pick.properties]));
 
-test('a compressed city looks the same in CesiumJS, and the same is picked in it', { timeout: 300_000 }, async (t) => {
+test('a compressed city looks the same in CesiumJS, and the same is picked in it', async (t) => {
   const views = { source: await viewsOf('source'), compressed: await viewsOf('compressed') };
   assert.deepEqual(site.server.missing, []);
   assert.ok(site.bytes.compressed < 0.7 * site.bytes.source, `${site.bytes.compressed} of ${site.bytes.source} bytes`);
@@ -125,7 +125,7 @@ test('a compressed city looks the same in CesiumJS, and the same is picked in it
   await t.test('ids of property tables and of batch tables were picked', () => checkIds(views.compressed));
 });
 
-test('gltf-mcc/cesium shows the same as the service worker, and says why a tile fails', { timeout: 300_000 }, async () => {
+test('gltf-mcc/cesium shows the same as the service worker, and says why a tile fails', async () => {
   const lookFrom = async (page) => page.evaluate((at) => globalThis.look(at), CAMERAS.houses);
   const [byWorker, inPage] = [await openCity('compressed'), await openCity('compressed', true)];
   const [expected, seen] = [await lookFrom(byWorker), await lookFrom(inPage)];
@@ -144,7 +144,7 @@ test('gltf-mcc/cesium shows the same as the service worker, and says why a tile 
   await inPage.close();
 });
 
-test('gltf-mcc/cesium loads a .gltf with its buffers', { timeout: 300_000 }, async () => {
+test('gltf-mcc/cesium loads a .gltf with its buffers', async () => {
   const { json, chunks: [{ data }] } = readGlb(convert(readSample('textured')));
   json.buffers[0].uri = 'model.bin';
   const root = { boundingVolume: { sphere: [0, 0, 0, 100] }, geometricError: 0, refine: 'ADD', content: { uri: 'model.gltf' } };

@@ -17,7 +17,7 @@ import { blocksGlb, payloadsIn } from '../support/blocks.mjs';
 import { ENGINES, LIBRARY, SAMPLES } from '../support/paths.mjs';
 import { binOf, withPreview } from '../support/previews.mjs';
 import { convert, decode, PROGRAM, readSample } from '../support/program.mjs';
-import { launchBrowser, openPage, PATIENCE_MS } from './support/browser.mjs';
+import { launchBrowser, openPage } from './support/browser.mjs';
 import { coverageOf, differenceOf } from './support/pixels.mjs';
 
 const DESKTOP = { width: 1000, height: 640 };
@@ -68,7 +68,7 @@ const drop = (page, name, bytes, claimedSize) => dropAll(page, [[name, bytes]], 
 async function dropAll(page, files, name, claimedSize) {
   await page.evaluate(dropInPage, [files.map(([file, bytes]) => [file, Buffer.from(bytes).toString('base64')]), claimedSize]);
   const begins = ([id, name]) => document.getElementById(id).textContent.startsWith(name);
-  await Promise.any(['file-name', 'error'].map((id) => page.waitForFunction(begins, [id, name], { timeout: PATIENCE_MS })));
+  await Promise.any(['file-name', 'error'].map((id) => page.waitForFunction(begins, [id, name])));
 }
 
 function dropInPage([contents, size]) {
@@ -84,7 +84,7 @@ async function settle(page) {
   await page.waitForFunction(() => {
     const isHidden = (id) => document.getElementById(id).hidden;
     return !isHidden('error') || (!isHidden('work') && isHidden('progress') && !document.getElementById('report').disabled);
-  }, undefined, { timeout: PATIENCE_MS });
+  });
   assert.equal(await textOf(page, 'error'), '');
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 }
@@ -686,7 +686,7 @@ test('a compressed model appears block by block', async () => {
   const damaged = convert(readSample('torus'), ['--block-triangles', '500']);
   damaged[damaged.length - 10] ^= 1;
   await drop(page, 'damaged.glb', damaged);
-  await page.waitForFunction(() => document.getElementById('error').textContent.includes('checksum'), undefined, { timeout: PATIENCE_MS });
+  await page.waitForFunction(() => document.getElementById('error').textContent.includes('checksum'));
   assert.deepEqual(violations(), []);
   assert.deepEqual(problems(), []);
   await page.close();
@@ -754,8 +754,8 @@ test('what the page has compressed to blocks appears block by block', async () =
     new MutationObserver(() => globalThis.seen.push(canvas.dataset.blocks)).observe(canvas, { attributeFilter: ['data-blocks'] });
   });
   await drop(page, 'sheet.glb', largeSheet(520));
-  await page.waitForFunction(() => document.getElementById('compressed-size').textContent !== '', undefined, { timeout: PATIENCE_MS });
-  await page.waitForFunction(() => document.getElementById('waiting').textContent === '', undefined, { timeout: PATIENCE_MS });
+  await page.waitForFunction(() => document.getElementById('compressed-size').textContent !== '');
+  await page.waitForFunction(() => document.getElementById('waiting').textContent === '');
   const seen = (await page.evaluate(() => globalThis.seen)).filter(Boolean);
   assert.ok(seen.length > 0 && seen.every((text) => / of [2-9]$/.test(text)), seen.join());
   await page.keyboard.press('Escape'); // the comparison would take long

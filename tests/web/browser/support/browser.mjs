@@ -11,8 +11,8 @@ export const LAUNCH_OPTIONS = {
     '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
 };
 
-/** How long a page may take on a busy machine. It ends what hangs, and judges no speed. */
-export const PATIENCE_MS = 180_000;
+/** How long anything in a page may take on a busy machine. It ends what hangs, and judges no speed. */
+const PATIENCE_MS = 180_000;
 
 /** A browser for this process, or the one of shared_browser.mjs, of which close() ends only what this process has opened. */
 export function launchBrowser() {
@@ -27,12 +27,13 @@ export function launchBrowser() {
  */
 export async function openPage(browser, url, isReady) {
   const page = await browser.newPage({ viewport: { width: 400, height: 300 } });
+  page.setDefaultTimeout(PATIENCE_MS);
   const messages = [];
   page.on('console', (message) => messages.push(`${message.type()}: ${message.text()}`));
   page.on('pageerror', (error) => messages.push(`error: ${error.message}`));
-  await page.goto(url, { timeout: PATIENCE_MS });
+  await page.goto(url);
   try {
-    await page.waitForFunction(isReady, undefined, { timeout: PATIENCE_MS });
+    await page.waitForFunction(isReady);
   } catch (error) {
     throw new Error(`${url} did not get ready: ${messages.join('\n')}`, { cause: error });
   }
