@@ -253,7 +253,8 @@ TEST_F(DestinationTest, ALockedFolderCostsNoBuffer) {
   {
     WorkLock lock;
     ASSERT_TRUE(lock.take(folder_.path()));
-    ASSERT_EQ(write("second").message(), "");
+    // On Windows a thread may take a lock again that it holds.
+    std::thread([&] { EXPECT_EQ(write("second").message(), ""); }).join();
   }
   EXPECT_EQ(everything().size(), 3u);
   EXPECT_EQ(everything().at(pairOf("second").beside[0].path), "second");
