@@ -7,9 +7,11 @@
 export async function withWorkers(change, work) {
   const { Worker } = globalThis;
   const { Worker: NodeWorker } = await import('node:worker_threads');
+  const made = [];
   globalThis.Worker = class {
     constructor(url) {
       this.worker = new NodeWorker(url);
+      made.push(this.worker);
       this.messages = [];
       this.worker.on('message', (data) => {
         this.messages.push(data);
@@ -25,6 +27,9 @@ export async function withWorkers(change, work) {
   };
   try {
     await work();
+  } catch (error) {
+    for (const worker of made) worker.terminate(); // which would keep Node running
+    throw error;
   } finally {
     globalThis.Worker = Worker;
   }
